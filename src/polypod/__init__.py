@@ -1,0 +1,2 @@
+"""Polypod makes any legged creature walk."""
+__version__ = "0.1.0"

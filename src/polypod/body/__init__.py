@@ -1,0 +1,1 @@
+"""How high the body is held, and how it tilts."""

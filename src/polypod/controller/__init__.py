@@ -1,0 +1,1 @@
+"""What each foot and the body do next, on the ground plane."""

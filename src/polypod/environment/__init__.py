@@ -1,0 +1,1 @@
+"""Where a creature walks: terrain, obstacles, and the maps made of them."""

@@ -1,0 +1,1 @@
+"""Where a foot lands: the preferred place, candidates and their scores."""

@@ -1,0 +1,1 @@
+"""When each foot swings: disks, the library of gaits, the needle, transitions."""

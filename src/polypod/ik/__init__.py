@@ -1,0 +1,1 @@
+"""Joint rotations that put each sole where it was planned."""

@@ -1,0 +1,1 @@
+"""Vectors, quaternions, circle intervals and curves, as kernels speak them."""

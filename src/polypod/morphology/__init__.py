@@ -1,0 +1,1 @@
+"""What a creature is: legs, joint limits, body, and the creatures built in."""

@@ -1,0 +1,1 @@
+"""How a foot gets there: wavefront, line of sight, slices, trajectory."""

@@ -1,0 +1,1 @@
+"""What a walk was like: record, figures, pictures."""
