@@ -1,2 +1,3 @@
 """Polypod makes any legged creature walk."""
+
 __version__ = "0.1.0"

@@ -38,10 +38,11 @@ def quaternion_product(a: Quat, b: Quat) -> Quat:
 
 
 def _is_quat(value: Any) -> bool:
-    return isinstance(value, types.NamedTuple | types.NamedUniTuple) and value.instance_class is Quat
+    kinds = types.NamedTuple | types.NamedUniTuple
+    return isinstance(value, kinds) and value.instance_class is Quat
 
 
-@overload(operator.mul)
+@overload(operator.mul, strict=False)
 def _mul(a: Any, b: Any) -> Any:
     if _is_quat(a) and _is_quat(b):
         return lambda a, b: quaternion_product(a, b)

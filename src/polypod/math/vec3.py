@@ -37,31 +37,32 @@ class Vec3(NamedTuple):
 
 
 def _is_vec3(value: Any) -> bool:
-    return isinstance(value, types.NamedTuple | types.NamedUniTuple) and value.instance_class is Vec3
+    kinds = types.NamedTuple | types.NamedUniTuple
+    return isinstance(value, kinds) and value.instance_class is Vec3
 
 
-@overload(operator.add)
+@overload(operator.add, strict=False)
 def _add(a: Any, b: Any) -> Any:
     if _is_vec3(a) and _is_vec3(b):
         return lambda a, b: Vec3(a.x + b.x, a.y + b.y, a.z + b.z)
     return None
 
 
-@overload(operator.sub)
+@overload(operator.sub, strict=False)
 def _sub(a: Any, b: Any) -> Any:
     if _is_vec3(a) and _is_vec3(b):
         return lambda a, b: Vec3(a.x - b.x, a.y - b.y, a.z - b.z)
     return None
 
 
-@overload(operator.mul)
+@overload(operator.mul, strict=False)
 def _mul(a: Any, b: Any) -> Any:
     if _is_vec3(a) and isinstance(b, types.Float | types.Integer):
         return lambda a, b: Vec3(a.x * b, a.y * b, a.z * b)
     return None
 
 
-@overload(operator.neg)
+@overload(operator.neg, strict=False)
 def _neg(a: Any) -> Any:
     if _is_vec3(a):
         return lambda a: Vec3(-a.x, -a.y, -a.z)
