@@ -1,0 +1,1 @@
+"""The record of a walk: plain arrays, one file a creature, the same frames as the GLB."""
