@@ -1,0 +1,98 @@
+"""Settings of the walk, keyword-only, each with its unit.
+
+Lengths are fractions of leg length and times are seconds, or fractions of the gait cycle, so that
+one set serves a fly and a dinosaur.
+
+Tuning, by symptom:
+
+* the body nods or shivers over rubble: raise `height_smoothing`, then `tilt_smoothing`;
+* the body lags behind a climb or hits a crate: lower `height_smoothing`;
+* the creature leans into slopes too much, or its legs do: change `tilt_share`, `upright_lean`;
+* turns look like a turret's: lower `turn_rate`; it misses waypoints: raise it;
+* feet hesitate in front of obstacles: raise `wider_search` (costs planning time);
+* swing feet twitch when the heading changes: raise `replan_distance`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import namedtuple
+from dataclasses import dataclass
+from typing import Any
+
+from polypod.errors import SettingError
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """How a walk is controlled; everything a user may tune and no morphology implies."""
+
+    acceleration: float = 0.6
+    """Change of speed, hip heights per (leg pendulum time)^2; 1 is g for an upright animal."""
+
+    turn_rate: float = 0.35
+    """Largest turn rate, radians per leg pendulum time sqrt(leg length / g)."""
+
+    turn_response: float = 2.5
+    """Leg pendulum times in which most of an error of heading is made up."""
+
+    step_height: float = 0.14
+    """Clearance of a swing foot, leg lengths (BIOMECHANICS 2: 8-25 %)."""
+
+    late_lift: float = 0.5
+    """A foot that could not lift may do so until this share of its swing sector."""
+
+    replan_distance: float = 0.06
+    """A swing foot plans anew when its preferred place has moved so far, leg lengths."""
+
+    replan_until: float = 0.75
+    """Share of the swing after which a foot keeps its plan."""
+
+    search_radius: float = 0.35
+    """Where a footprint is looked for around the preferred place, leg lengths."""
+
+    wider_search: float = 1.8
+    """Factor on `search_radius` for a foot that found no place."""
+
+    height_smoothing: float = 0.35
+    """Time in which the body's height follows what it walks over, gait cycles."""
+
+    tilt_smoothing: float = 0.30
+    """Time in which pitch and roll follow the feet, gait cycles."""
+
+    tilt_share: float = 0.85
+    """How much of the slope under the feet the body takes on; 0 keeps it level."""
+
+    upright_lean: float = 0.5
+    """For legs that stand upright: share of that tilt by which the feet stay under the body."""
+
+    bob: float = 1.0
+    """Scale of P1's sinusoidal movement of the body; 0 switches it off."""
+
+    feedback_share: float = 0.35
+    """Share of the mean offset of chosen footprints by which the body shifts (P1 3.2, Fig 7)."""
+
+    feedback_threshold: float = 0.06
+    """Mean offset below which it is discarded, leg lengths."""
+
+    spacing_rate: float = 0.5
+    """How fast feet spacing moves to a new target, leg lengths a second (P1 Fig 6)."""
+
+    foot_tilt: float = 0.6
+    """Largest tilt of a foot joint to the ground, radians."""
+
+    def __post_init__(self) -> None:
+        """Refuse what no walk can use."""
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if not isinstance(value, int | float) or not 0.0 <= float(value) <= 1e3:
+                raise SettingError(
+                    f"setting {field.name} is {value!r}; it must be a number from 0 to 1000"
+                )
+
+    def values(self) -> Any:
+        """Return the settings as a named tuple of floats, as kernels read them."""
+        return SettingValues(*(float(value) for value in dataclasses.astuple(self)))
+
+
+SettingValues = namedtuple("SettingValues", [field.name for field in dataclasses.fields(Settings)])  # noqa: PYI024

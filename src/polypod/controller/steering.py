@@ -1,0 +1,125 @@
+"""The body on the ground plane: where it goes next, and where it will be (P1 3.2).
+
+`steer` is one pure step; `predict` is `steer` applied ahead, and is what every look ahead asks.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from polypod.compute import kernel
+
+PREDICTION_STEPS = 8
+# A waypoint counts as reached within this many leg lengths, so that a corner is cut, not circled.
+WAYPOINT_RADIUS = 0.5
+# Closer than this to the last waypoint the heading is kept: its direction is noise.
+HEADING_RADIUS = 0.3
+
+
+class PlanPose(NamedTuple):
+    """The body on the ground plane: where it is and how it moves."""
+
+    x: float
+    z: float
+    heading: float  # rad about +Y from +Z toward +X
+    turn_rate: float  # rad/s
+    speed: float  # m/s along the direction of travel
+    waypoint: float  # index of the waypoint being approached
+
+
+@kernel
+def wrapped(angle: float) -> float:
+    """Return the angle in (-pi, pi]."""
+    return math.atan2(math.sin(angle), math.cos(angle))
+
+
+@kernel
+def way_left(x: float, z: float, waypoint: int, c: int, command: Any) -> float:
+    """Return the length of the way from a point over the waypoints from `waypoint` on, metres."""
+    total = 0.0
+    for i in range(waypoint, command.waypoint_count[c]):
+        to_x = command.waypoints[c, i, 0]
+        to_z = command.waypoints[c, i, 1]
+        total += math.hypot(to_x - x, to_z - z)
+        x = to_x
+        z = to_z
+    return total
+
+
+@kernel
+def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: float) -> PlanPose:
+    """Return the pose on the plane `dt` seconds later.
+
+    The turn rate approaches what removes the error of heading, and the speed what was asked for,
+    within bounds that scale with the animal; it stops at the last waypoint.
+    """
+    pendulum = tables.pendulum_time
+    acceleration = settings.acceleration * tables.hip_height / (pendulum * pendulum)
+    travel = command.travel[c]
+    heading_asked = command.heading[c]
+    speed_asked = command.speed[c]
+    waypoint = int(pose.waypoint)
+    last = command.waypoint_count[c] - 1
+    if last >= 0:
+        to_x = command.waypoints[c, waypoint, 0] - pose.x
+        to_z = command.waypoints[c, waypoint, 1] - pose.z
+        if waypoint < last and math.hypot(to_x, to_z) < WAYPOINT_RADIUS * tables.leg_length:
+            waypoint += 1
+            to_x = command.waypoints[c, waypoint, 0] - pose.x
+            to_z = command.waypoints[c, waypoint, 1] - pose.z
+        heading_asked = pose.heading
+        if waypoint < last or math.hypot(to_x, to_z) > HEADING_RADIUS * tables.leg_length:
+            heading_asked = math.atan2(to_x, to_z) - travel
+        ahead = math.sin(pose.heading + travel) * to_x + math.cos(pose.heading + travel) * to_z
+        left = max(ahead, 0.0)
+        if waypoint < last:
+            left = way_left(pose.x, pose.z, waypoint, c, command)
+        speed_asked = min(speed_asked, math.sqrt(acceleration * left), left / dt)
+    error = wrapped(heading_asked - pose.heading)
+    # Who must turn far turns first: full speed would circle round the place it is to go to.
+    speed_asked *= min(1.0, max(0.1, 1.4 * math.cos(error)))
+    response = settings.turn_response * pendulum
+    limit = settings.turn_rate / pendulum
+    rate_asked = min(limit, max(-limit, error / response))
+    turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (1.0 - math.exp(-4.0 * dt / response))
+    change = acceleration * dt
+    speed = pose.speed + min(change, max(-2.0 * change, speed_asked - pose.speed))
+    heading = wrapped(pose.heading + turn_rate * dt)
+    course = pose.heading + 0.5 * turn_rate * dt + travel
+    advance = 0.5 * (pose.speed + speed) * dt
+    return PlanPose(
+        pose.x + math.sin(course) * advance,
+        pose.z + math.cos(course) * advance,
+        heading,
+        turn_rate,
+        speed,
+        float(waypoint),
+    )
+
+
+@kernel
+def plan_pose(c: int, state: Any) -> PlanPose:
+    """Return the present pose of a creature on the plane."""
+    return PlanPose(
+        state.position[c, 0],
+        state.position[c, 2],
+        state.heading[c],
+        state.turn_rate[c],
+        state.speed[c],
+        float(state.waypoint[c]),
+    )
+
+
+@kernel
+def predict(
+    c: int, state: Any, command: Any, tables: Any, settings: Any, seconds: float
+) -> PlanPose:
+    """Return the pose on the plane `seconds` ahead, as `steer` will bring it about."""
+    pose = plan_pose(c, state)
+    dt = seconds / PREDICTION_STEPS
+    if dt < 1e-9:
+        return pose
+    for _ in range(PREDICTION_STEPS):
+        pose = steer(pose, c, command, tables, settings, dt)
+    return pose

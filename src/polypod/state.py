@@ -1,0 +1,175 @@
+"""What changes and what is asked for: the state and the command of a herd.
+
+A herd is all creatures of one morphology; arrays are shaped [creature, foot, ...]. A single
+creature is a herd of one. Static data is in `polypod.morphology.types`. C creatures, K feet,
+J joints, N knots of a swing path, W waypoints; world frame, metres and seconds unless said.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, get_type_hints
+
+import numpy as np
+
+from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
+from polypod.paths.curve import PATH_KNOTS
+
+
+class JointTable(NamedTuple):
+    """How joints hang together, for the pose."""
+
+    parent: IntArray  # [J] row of the joint it rides on, -1: the body
+    rest: FloatArray  # [J, 3] body frame, m
+    driven: BoolArray  # [J] posed by a leg rather than by its parent
+
+
+class HerdTables(NamedTuple):
+    """All static data of a herd, as kernels read it."""
+
+    legs: LegTable
+    ik: Any  # polypod.ik.table.IkTable
+    body: BodyTable
+    joints: JointTable
+    foot_reach: FloatArray  # [K] m, longest horizontal way of a stance foot
+    leg_length: float  # mean over legs, m: the unit of all tolerances
+    hip_height: float  # mean height of the hips above the soles in stance, m
+    pendulum_time: float  # sqrt(leg length / g), s
+    upright: bool  # most legs stand below their hips
+
+
+class HerdState(NamedTuple):
+    """Everything that changes while a herd walks."""
+
+    position: FloatArray  # [C, 3] the body centre
+    rotation: FloatArray  # [C, 4] of the body frame
+    heading: FloatArray  # [C] rad about +Y from +Z toward +X
+    turn_rate: FloatArray  # [C] rad/s
+    speed: FloatArray  # [C] m/s along the direction of travel
+    waypoint: IntArray  # [C] index of the waypoint being approached
+    travelled: FloatArray  # [C] m, along the way asked for
+    needle: FloatArray  # [C] phase of the gait in [0, 1)
+    cycle_rate: FloatArray  # [C] cycles a second
+    swing_start: FloatArray  # [C, K] disks in use
+    swing_extent: FloatArray  # [C, K]
+    blend_start: FloatArray  # [C, K] disks on their way to the destination gait
+    blend_extent: FloatArray  # [C, K]
+    stance: BoolArray  # [C, K]
+    swing_from: FloatArray  # [C, K] share of the swing sector already gone at lift-off
+    swing_progress: FloatArray  # [C, K] along the planned path, 0 at lift-off, 1 at touchdown
+    waiting: FloatArray  # [C, K] s since a foot wished to lift and found no place
+    foot: FloatArray  # [C, K, 3] the sole as planned
+    foot_start: FloatArray  # [C, K, 3] the sole at lift-off
+    foot_target: FloatArray  # [C, K, 3] the footprint it is going to, or stands on
+    foot_preferred: FloatArray  # [C, K, 3] where it would have liked to land
+    foot_support: IntArray  # [C, K] obstacle stood on, -1: the ground
+    foot_rotation: FloatArray  # [C, K, 4] orientation of the foot joint, away from the rest
+    foot_rotation_start: FloatArray  # [C, K, 4] at lift-off
+    foot_rotation_target: FloatArray  # [C, K, 4] at touchdown
+    spacing: FloatArray  # [C, K, 2] body x, z: shift of the rest place in use, m
+    path_point: FloatArray  # [C, K, N, 3] knots of the swing path
+    path_tangent: FloatArray  # [C, K, N, 3]
+    path_fraction: FloatArray  # [C, K, N] arc length up to each knot over the whole
+    path_count: IntArray  # [C, K]
+    slope: FloatArray  # [C, 2] of the plane through the feet: body z (pitch), body x (roll)
+    tilt: FloatArray  # [C, 2, 3] smoothed slope, its rate, and the input's low pass
+    lift: FloatArray  # [C, 3] smoothed height above the feet's plane, its rate, low pass, m
+    joint_position: FloatArray  # [C, J, 3]
+    joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
+    foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it
+    residual: FloatArray  # [C, K] m, planned against reached
+    held: FloatArray  # [C] share of this frame's advance that the legs allowed
+
+
+class HerdCommand(NamedTuple):
+    """What is asked of a herd; every array may be written at any time between steps."""
+
+    speed: FloatArray  # [C] m/s
+    heading: FloatArray  # [C] rad; used where there are no waypoints
+    travel: FloatArray  # [C] rad from the heading to the direction of travel (a crab: pi / 2)
+    step_height: FloatArray  # [C] m
+    body_height: FloatArray  # [C] m above the feet's plane
+    spacing: FloatArray  # [C, K, 2] body x, z: wished shift of each foot's rest place, m
+    period: FloatArray  # [C] s a cycle, NaN: from speed and morphology
+    gait_start: FloatArray  # [C, K] the destination gait's disks
+    gait_extent: FloatArray  # [C, K]
+    gait_duty: FloatArray  # [C, 2] lowest and highest duty factor of that gait
+    gait_minimum: IntArray  # [C] fewest feet down at any phase of that gait
+    blend_cycles: FloatArray  # [C] cycles in which a transition takes place
+    waypoints: FloatArray  # [C, W, 2] x, z
+    waypoint_count: IntArray  # [C]
+
+
+def _allocate(kind: Any, shapes: dict[str, tuple[int, ...]]) -> Any:
+    hints = get_type_hints(kind)
+    return kind(*(np.zeros(shapes[name], _dtype(hints[name])) for name in kind._fields))
+
+
+def _dtype(hint: Any) -> Any:
+    if hint == IntArray:
+        return np.int64
+    return np.bool_ if hint == BoolArray else np.float64
+
+
+def make_state(count: int, feet: int, joints: int) -> HerdState:
+    """Return the state of a herd, all zero."""
+    c, k, j, n = count, feet, joints, PATH_KNOTS
+    scalar = dict.fromkeys(
+        ("heading", "turn_rate", "speed", "waypoint", "travelled", "needle", "cycle_rate", "held"),
+        (c,),
+    )
+    per_foot = dict.fromkeys(
+        (
+            *("swing_start", "swing_extent", "blend_start", "blend_extent", "stance"),
+            *("swing_from", "swing_progress", "waiting", "foot_support", "path_count", "residual"),
+        ),
+        (c, k),
+    )
+    places = dict.fromkeys(
+        ("foot", "foot_start", "foot_target", "foot_preferred", "foot_reached"), (c, k, 3)
+    )
+    turns = dict.fromkeys(
+        ("foot_rotation", "foot_rotation_start", "foot_rotation_target"), (c, k, 4)
+    )
+    shapes: dict[str, tuple[int, ...]] = {
+        **scalar,
+        **per_foot,
+        **places,
+        **turns,
+        "position": (c, 3),
+        "rotation": (c, 4),
+        "spacing": (c, k, 2),
+        "path_point": (c, k, n, 3),
+        "path_tangent": (c, k, n, 3),
+        "path_fraction": (c, k, n),
+        "slope": (c, 2),
+        "tilt": (c, 2, 3),
+        "lift": (c, 3),
+        "joint_position": (c, j, 3),
+        "joint_rotation": (c, j, 4),
+    }
+    state: HerdState = _allocate(HerdState, shapes)
+    for turn in (state.rotation, state.joint_rotation, state.foot_rotation):
+        turn[..., 3] = 1.0
+    state.foot_rotation_start[..., 3] = 1.0
+    state.foot_rotation_target[..., 3] = 1.0
+    state.stance[:] = True
+    state.foot_support[:] = -1
+    return state
+
+
+def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
+    """Return a herd's command, all zero but for the period, which follows speed."""
+    c, k = count, feet
+    shapes: dict[str, tuple[int, ...]] = {
+        **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
+        **dict.fromkeys(("period", "gait_minimum", "blend_cycles", "waypoint_count"), (c,)),
+        "spacing": (c, k, 2),
+        "gait_start": (c, k),
+        "gait_extent": (c, k),
+        "gait_duty": (c, 2),
+        "waypoints": (c, max(waypoints, 1), 2),
+    }
+    command: HerdCommand = _allocate(HerdCommand, shapes)
+    command.period[:] = np.nan
+    command.blend_cycles[:] = 1.5
+    return command
