@@ -44,35 +44,33 @@ def split(data: bytes, name: str) -> Container:
         return _split_glb(data, name)
     start = data[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
     if not start.startswith(b"{"):
-        raise RigError(f"{name}: is not a glTF file (.glb or .gltf).")
+        raise RigError(f"{name}: is not a glTF file (.glb or .gltf)")
     return Container(_parse_json(data, name), None, (), False)
 
 
 def _split_glb(data: bytes, name: str) -> Container:
     if len(data) < 20:
-        raise RigError(
-            f"{name}: is truncated: a GLB has a header of 20 bytes, this has {len(data)}."
-        )
+        raise RigError(f"{name}: is truncated: a GLB has at least 20 bytes, this {len(data)}")
     version, length = struct.unpack_from("<II", data, 4)
     if version != 2:
-        raise RigError(f"{name}: is GLB version {version}, but only version 2 can be read.")
+        raise RigError(f"{name}: is GLB version {version}, but only version 2 can be read")
     if length != len(data):
         fault = "is truncated" if length > len(data) else "has a wrong length"
-        raise RigError(f"{name}: {fault}: its header says {length} bytes, it has {len(data)}.")
+        raise RigError(f"{name}: {fault}: its header says {length} bytes, it has {len(data)}")
     chunks: list[tuple[int, bytes]] = []
     at = 12
     while at < length:
         size, kind = struct.unpack_from("<II", data, at) if at + 8 <= length else (length, 0)
         if at + 8 + size > length:
-            raise RigError(f"{name}: the chunk at byte {at} is longer than the file.")
+            raise RigError(f"{name}: the chunk at byte {at} is longer than the file")
         chunks.append((kind, data[at + 8 : at + 8 + size]))
         at += 8 + size
     if chunks[0][0] != JSON_CHUNK:
-        raise RigError(f"{name}: the first chunk is not JSON.")
+        raise RigError(f"{name}: the first chunk is not JSON")
     binaries = [content for kind, content in chunks[1:] if kind == BINARY_CHUNK]
     others = tuple(chunk for chunk in chunks[1:] if chunk[0] != BINARY_CHUNK)
     if len(binaries) > 1:
-        raise RigError(f"{name}: has {len(binaries)} BIN chunks, but may have one.")
+        raise RigError(f"{name}: has {len(binaries)} BIN chunks, but may have one")
     return Container(
         _parse_json(chunks[0][1], name), binaries[0] if binaries else None, others, True
     )
@@ -85,9 +83,9 @@ def _parse_json(text: bytes, name: str) -> dict[str, Any]:
     try:
         parsed = json.loads(text.decode("utf-8-sig"), parse_constant=refuse)
     except (ValueError, RecursionError) as fault:
-        raise RigError(f"{name}: its JSON cannot be parsed: {str(fault)[:120]}.") from None
+        raise RigError(f"{name}: its JSON cannot be parsed: {str(fault)[:120]}") from None
     if not isinstance(parsed, dict):
-        raise RigError(f"{name}: its JSON must be an object.")
+        raise RigError(f"{name}: its JSON must be an object")
     check_header(Place(name, "", parsed))
     return parsed
 

@@ -22,7 +22,7 @@ class Place:
     def error(self, text: str, key: str = "") -> RigError:
         """Return an error whose sentence starts with the file and the place."""
         place = ".".join(part for part in (self.path, key) if part)
-        return RigError(f"{self.file}: {place} {text}." if place else f"{self.file}: {text}.")
+        return RigError(f"{self.file}: {place} {text}." if place else f"{self.file}: {text}")
 
     def has(self, key: str) -> bool:
         """Return whether the field is there at all."""

@@ -67,7 +67,7 @@ class GltfDocument:
         try:
             data = source.read_bytes()
         except OSError as fault:
-            raise RigError(f"{source}: cannot be read: {fault.strerror}.") from None
+            raise RigError(f"{source}: cannot be read: {fault.strerror}") from None
         return cls.from_bytes(data, source.name, source.parent)
 
     @classmethod
