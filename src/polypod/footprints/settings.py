@@ -1,0 +1,83 @@
+"""What the footprints planner is told: its settings, and one foot's request.
+
+Lengths given as fractions are fractions of the leg's length, so that a fly and a dinosaur plan
+alike.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from polypod.math.vec3 import Vec3
+
+
+class PlanSettings(NamedTuple):
+    """How thoroughly and how carefully to plan; the same for all feet of a creature.
+
+    Level of detail (P1 section 6) lowers `candidate_limit` and `slice_limit`, or raises
+    `slice_thickness`.
+    """
+
+    # Thoroughness.
+    cell: float = 0.07  # side of a map cell, leg lengths (P1: 7 cm for its spider)
+    candidate_limit: int = 12  # places that are judged exactly, besides the preferred one
+    slice_limit: int = 4  # wavefronts a request may spread; 0: always over, never around
+    slice_thickness: float = 1.0 / 3.0  # elevation between two slices, step heights
+    candidate_spacing: float = 0.13  # least distance between two candidates, leg lengths
+    open_score: float = 0.6  # a direct swing to the preferred place this good ends the search
+    first_pair: bool = False  # True: the first valid pair is taken (off-screen, P1 section 6)
+
+    # Margins.
+    clearance: float = 0.03  # of the sole above what it passes over, leg lengths
+    toe: float = 0.02  # what the foot's shape is grown by in plan, leg lengths
+    forbidden_margin: float = 0.02  # beyond the foot's shape, around forbidden things, leg lengths
+    edge: float = 0.07  # wanted between the foot's shape and an edge, leg lengths
+    reach: float = 0.01  # kept from the leg's shortest and longest reach, share of the reach
+    leg_gap: float = 0.01  # between the foot and another leg, leg lengths
+    penetration: float = 0.0005  # accepted by the exact check of a path, leg lengths
+
+    # What can be stood on.
+    uneven: float = 0.02  # largest departure from a plane under the foot, leg lengths
+    slope: float = 1.2  # steepest plane under the foot, tangent of the angle (50 degrees)
+    drop: float = 0.03  # a larger difference beside the foot is an edge, leg lengths
+
+    # Weights of a place's score; they are normalised by their sum.
+    weight_distance: float = 0.45
+    weight_even: float = 0.10
+    weight_edge: float = 0.15
+    weight_reach: float = 0.20
+    weight_escape: float = 0.10
+    crossing: float = 0.3  # factor on the score of a place that makes legs cross
+
+    # Weights of a path's score; they are normalised by their sum.
+    weight_length: float = 0.5
+    weight_bending: float = 0.25
+    weight_acceleration: float = 0.25
+
+    weight_path: float = 0.5  # share of the path in a pair's score, the rest is the place's
+
+
+class StepRequest(NamedTuple):
+    """One foot's step: world frame, metres, seconds, radians."""
+
+    start_world: Vec3  # the sole now
+    start_velocity: Vec3  # per unit of swing progress; zero for a normal lift-off
+    preferred_world: Vec3  # only x and z are read
+    hip_start: Vec3  # the hip's pivot at lift-off
+    hip_touchdown: Vec3  # predicted at touchdown
+    hip_end_of_stance: Vec3  # predicted at the end of the coming stance
+    effector_offset_touchdown: Vec3  # sole + offset = effector, whose distance to the hip is limited
+    reach_min: float  # m, effector to hip
+    reach_max: float
+    reach_comfort_max: float
+    leg_length: float
+    step_height: float  # m, the arc's height over level ground
+    foot_half_x: float  # m, half extents of the sole's shape in its own axes
+    foot_half_z: float
+    foot_yaw: float  # heading of the sole's shape
+    body_position: Vec3  # predicted at touchdown
+    side: Vec3  # unit, outward from the body in plan; zero for a leg in the middle
+    swing_seconds: float
+    speed_limit: float  # m/s, the most the foot may move at; infinite where there is none
+    search_radius: float  # m, about the preferred place
+    other_foot_count: int  # segments of other legs in the scratch
