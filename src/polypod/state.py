@@ -2,7 +2,7 @@
 
 A herd is all creatures of one morphology; arrays are shaped [creature, foot, ...]. A single
 creature is a herd of one. Static data is in `polypod.morphology.types`. C creatures, K feet,
-J joints, N knots of a swing path, W waypoints; world frame, metres and seconds unless said.
+J joints, W waypoints; world frame, metres and seconds unless said.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
-from polypod.paths.curve import PATH_KNOTS
+from polypod.paths.curve import PathRow, path_store
 
 
 class JointTable(NamedTuple):
@@ -66,10 +66,8 @@ class HerdState(NamedTuple):
     foot_rotation_start: FloatArray  # [C, K, 4] at lift-off
     foot_rotation_target: FloatArray  # [C, K, 4] at touchdown
     spacing: FloatArray  # [C, K, 2] body x, z: shift of the rest place in use, m
-    path_point: FloatArray  # [C, K, N, 3] knots of the swing path
-    path_tangent: FloatArray  # [C, K, N, 3]
-    path_fraction: FloatArray  # [C, K, N] arc length up to each knot over the whole
-    path_count: IntArray  # [C, K]
+    path: PathRow  # the swing paths, axes [C, K]
+    path_launch: FloatArray  # [C, K] speed at the path's start over its mean speed
     slope: FloatArray  # [C, 2] of the plane through the feet: body z (pitch), body x (roll)
     tilt: FloatArray  # [C, 2, 3] smoothed slope, its rate, and the input's low pass
     lift: FloatArray  # [C, 3] smoothed height above the feet's plane, its rate, low pass, m
@@ -99,9 +97,10 @@ class HerdCommand(NamedTuple):
     waypoint_count: IntArray  # [C]
 
 
-def _allocate(kind: Any, shapes: dict[str, tuple[int, ...]]) -> Any:
+def _allocate(kind: Any, shapes: dict[str, tuple[int, ...]], **given: Any) -> Any:
     hints = get_type_hints(kind)
-    return kind(*(np.zeros(shapes[name], _dtype(hints[name])) for name in kind._fields))
+    zeros = {name: np.zeros(shape, _dtype(hints[name])) for name, shape in shapes.items()}
+    return kind(**zeros, **given)
 
 
 def _dtype(hint: Any) -> Any:
@@ -112,7 +111,7 @@ def _dtype(hint: Any) -> Any:
 
 def make_state(count: int, feet: int, joints: int) -> HerdState:
     """Return the state of a herd, all zero."""
-    c, k, j, n = count, feet, joints, PATH_KNOTS
+    c, k, j = count, feet, joints
     scalar = dict.fromkeys(
         ("heading", "turn_rate", "speed", "waypoint", "travelled", "needle", "cycle_rate", "held"),
         (c,),
@@ -120,7 +119,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
     per_foot = dict.fromkeys(
         (
             *("swing_start", "swing_extent", "blend_start", "blend_extent", "stance"),
-            *("swing_from", "swing_progress", "waiting", "foot_support", "path_count", "residual"),
+            *("swing_from", "swing_progress", "waiting", "foot_support", "path_launch", "residual"),
         ),
         (c, k),
     )
@@ -138,16 +137,13 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         "position": (c, 3),
         "rotation": (c, 4),
         "spacing": (c, k, 2),
-        "path_point": (c, k, n, 3),
-        "path_tangent": (c, k, n, 3),
-        "path_fraction": (c, k, n),
         "slope": (c, 2),
         "tilt": (c, 2, 3),
         "lift": (c, 3),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),
     }
-    state: HerdState = _allocate(HerdState, shapes)
+    state: HerdState = _allocate(HerdState, shapes, path=path_store(c, k))
     for turn in (state.rotation, state.joint_rotation, state.foot_rotation):
         turn[..., 3] = 1.0
     state.foot_rotation_start[..., 3] = 1.0

@@ -1,0 +1,58 @@
+"""The least correction of the body that keeps every sole within its leg's reach."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from polypod.compute import kernel
+from polypod.ik.reach import reach_shift
+from polypod.math.quat import Quat, load_quat, rotate, unrotate
+from polypod.math.vec3 import Vec3, length, load_vec3
+
+PASSES = 16
+# A target this near to the edge of the reach, in leg lengths, counts as inside.
+TOLERANCE = 2e-5
+
+
+@kernel
+def effector_world(k: int, tables: Any, sole_world: Vec3, foot_rotation: Quat) -> Vec3:
+    """Return where a leg's effector is when its sole is at `sole_world`."""
+    legs = tables.legs
+    if legs.foot_joint[k] < 0:
+        return sole_world
+    ankle = load_vec3(legs.point_rest[k, legs.joint_count[k]])
+    return sole_world - rotate(foot_rotation, load_vec3(legs.sole_rest[k]) - ankle)
+
+
+@kernel
+def foot_shift(
+    c: int, k: int, state: Any, tables: Any, position: Vec3, rotation: Quat
+) -> Vec3:
+    """Return the least shift of a foot, world, that brings it within its leg's reach."""
+    target = effector_world(
+        k, tables, load_vec3(state.foot[c, k]), load_quat(state.foot_rotation[c, k])
+    )
+    shift_body = reach_shift(tables.ik, k, unrotate(rotation, target - position))
+    return rotate(rotation, shift_body)
+
+
+@kernel
+def body_within_reach(c: int, state: Any, tables: Any, position: Vec3, rotation: Quat) -> Vec3:
+    """Return the position nearest to `position` at which all stance feet are within reach.
+
+    Each pass moves the body against each foot's own shift in turn (projections onto nearly convex
+    sets); it ends where no foot asks for more, or with what the passes reached.
+    """
+    tolerance = TOLERANCE * tables.leg_length
+    for _ in range(PASSES):
+        worst = 0.0
+        for k in range(state.stance.shape[1]):
+            if state.stance[c, k]:
+                shift = foot_shift(c, k, state, tables, position, rotation)
+                size = length(shift)
+                if size > tolerance:
+                    position = position - shift * (1.0 + 0.2 * tolerance / size)
+                worst = max(worst, size)
+        if worst <= tolerance:
+            break
+    return position
