@@ -1,0 +1,153 @@
+"""The true geometry of a scene, asked about many points at once.
+
+An audit must not share the planner's mistakes: this is written from the shapes themselves and uses
+none of the kernels that walks are planned with. A test holds the two against each other.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polypod.environment.table import CYLINDER, SPHERE, EnvironmentTable
+from polypod.report.arrays import FloatArray, conjugate_all, rotate_all
+
+BoolArray = NDArray[np.bool_]
+
+
+class Ground:
+    """Terrain and obstacles as a walker meets them; world metres."""
+
+    def __init__(self, environment: EnvironmentTable) -> None:
+        """Read the table; obstacles are where it says."""
+        self.environment = environment
+        self.forbidden = frozenset(int(i) for i in np.flatnonzero(environment.forbidden))
+
+    def surface(self, x: FloatArray, z: FloatArray) -> FloatArray:
+        """Return the height [N] of what stands highest over each place of the plan, m."""
+        table = self.environment
+        highest = terrain_height(table, x, z)
+        for index in range(len(table.kind)):
+            least, most = table.bounds[index, :3], table.bounds[index, 3:]
+            near = np.flatnonzero(
+                (x >= least[0]) & (x <= most[0]) & (z >= least[2]) & (z <= most[2])
+            )
+            if near.size:
+                top = self._top(index, x[near], z[near])
+                highest[near] = np.maximum(highest[near], top)
+        return highest
+
+    def penetration(self, points: FloatArray) -> FloatArray:
+        """Return how deep [N] each point [N, 3] is inside the terrain or an obstacle, m.
+
+        In the terrain depth is counted straight up, in an obstacle to its nearest face. 0: outside.
+        """
+        table = self.environment
+        deepest = np.maximum(terrain_height(table, points[:, 0], points[:, 2]) - points[:, 1], 0.0)
+        for index in range(len(table.kind)):
+            bounds = table.bounds[index]
+            near = np.flatnonzero(((points >= bounds[:3]) & (points <= bounds[3:])).all(axis=1))
+            if near.size:
+                deepest[near] = np.maximum(deepest[near], self._depth(index, points[near]))
+        return deepest
+
+    def over_forbidden(self, points: FloatArray) -> BoolArray:
+        """Return which points [N, 3] lie over the plan outline of a forbidden obstacle."""
+        table = self.environment
+        over = np.zeros(len(points), np.bool_)
+        for index in self.forbidden:
+            side = table.footprint_side[index, : table.footprint_count[index]]
+            beyond = points[:, [0, 2]] @ side[:, :2].T - side[:, 2]
+            over |= (beyond < 0.0).all(axis=1)
+        return over
+
+    def _depth(self, index: int, points: FloatArray) -> FloatArray:
+        """Return how deep points [N, 3] are inside one obstacle; 0 outside."""
+        table = self.environment
+        offset = points - table.position[index]
+        if table.kind[index] == SPHERE:
+            gap = table.half_size[index, 0] - np.linalg.norm(offset, axis=1)
+        elif table.kind[index] == CYLINDER:
+            local = rotate_all(conjugate_all(table.rotation[index]), offset)
+            round_gap = table.half_size[index, 0] - np.hypot(local[:, 0], local[:, 2])
+            gap = np.minimum(round_gap, table.half_size[index, 1] - np.abs(local[:, 1]))
+        else:
+            planes = table.planes[index, : table.plane_count[index]]
+            gap = (planes[:, 3] - points @ planes[:, :3].T).min(axis=1)
+        depth: FloatArray = np.maximum(gap, 0.0)
+        return depth
+
+    def _top(self, index: int, x: FloatArray, z: FloatArray) -> FloatArray:
+        """Return where vertical lines leave one obstacle, minus infinity where they miss it."""
+        table = self.environment
+        if table.kind[index] == SPHERE:
+            centre, radius = table.position[index], table.half_size[index, 0]
+            square = radius**2 - (x - centre[0]) ** 2 - (z - centre[2]) ** 2
+            top = centre[1] + np.sqrt(np.maximum(square, 0.0))
+            return np.where(square >= 0.0, top, -np.inf)
+        if table.kind[index] == CYLINDER:
+            return self._cylinder_top(index, x, z)
+        planes = table.planes[index, : table.plane_count[index]]
+        room = planes[:, 3] - np.stack([x, z], axis=1) @ planes[:, [0, 2]].T
+        return _leave(room, np.broadcast_to(planes[:, 1], room.shape))
+
+    def _cylinder_top(self, index: int, x: FloatArray, z: FloatArray) -> FloatArray:
+        """Return where vertical lines leave an upright, leaning or lying cylinder."""
+        table = self.environment
+        inverse = conjugate_all(table.rotation[index])
+        radius, half = table.half_size[index, 0], table.half_size[index, 1]
+        start = np.stack([x, np.full(len(x), table.position[index, 1]), z], axis=1)
+        origin = rotate_all(inverse, start - table.position[index])
+        way = rotate_all(inverse, np.array([0.0, 1.0, 0.0]))
+        # Within the round side: a t^2 + 2 b t + c <= 0 along origin + t way.
+        a = way[0] ** 2 + way[2] ** 2
+        b = origin[:, 0] * way[0] + origin[:, 2] * way[2]
+        c = origin[:, 0] ** 2 + origin[:, 2] ** 2 - radius**2
+        if a < 1e-18:
+            enter, leave = np.where(c <= 0.0, -np.inf, np.inf), np.where(c <= 0.0, np.inf, -np.inf)
+        else:
+            square = b**2 - a * c
+            root = np.sqrt(np.maximum(square, 0.0))
+            enter = np.where(square >= 0.0, (-b - root) / a, np.inf)
+            leave = np.where(square >= 0.0, (-b + root) / a, -np.inf)
+        caps = np.stack([half - origin[:, 1], half + origin[:, 1]], axis=1)
+        slope = np.broadcast_to(np.array([way[1], -way[1]]), caps.shape)
+        low, high, hit = _interval(caps, slope)
+        low, high = np.maximum(low, enter), np.minimum(high, leave)
+        return np.where(hit & (low <= high), table.position[index, 1] + high, -np.inf)
+
+
+def terrain_height(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> FloatArray:
+    """Return the terrain's height [N] over places of the plan: bilinear, level beyond its edges."""
+    rows, columns = environment.heights.shape
+    x0, z0, cell = environment.terrain_place
+    u = np.clip((x - x0) / cell, 0.0, columns - 1.0)
+    v = np.clip((z - z0) / cell, 0.0, rows - 1.0)
+    column = np.minimum(u.astype(np.int64), max(columns - 2, 0))
+    row = np.minimum(v.astype(np.int64), max(rows - 2, 0))
+    right, below = np.minimum(column + 1, columns - 1), np.minimum(row + 1, rows - 1)
+    u, v = u - column, v - row
+    samples = environment.heights
+    near = samples[row, column] * (1.0 - u) + samples[row, right] * u
+    far = samples[below, column] * (1.0 - u) + samples[below, right] * u
+    height: FloatArray = near * (1.0 - v) + far * v
+    return height
+
+
+def _interval(room: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Return the least and greatest t [N] with slope t <= room [N, P] for all P, and if any."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        limit: Any = room / slope
+    rising, falling = slope > 1e-12, slope < -1e-12
+    high = np.where(rising, limit, np.inf).min(axis=1)
+    low = np.where(falling, limit, -np.inf).max(axis=1)
+    hit = (rising | falling | (room >= 0.0)).all(axis=1) & (low <= high)
+    return low, high, hit
+
+
+def _leave(room: FloatArray, slope: FloatArray) -> FloatArray:
+    """Return the greatest height [N] with slope y <= room [N, P] for all P, or -infinity."""
+    _, high, hit = _interval(room, slope)
+    return np.where(hit, high, -np.inf)
