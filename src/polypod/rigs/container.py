@@ -5,11 +5,12 @@ from __future__ import annotations
 import base64
 import binascii
 import json
+import math
 import struct
 import urllib.parse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from polypod.errors import RigError
 from polypod.rigs.fields import Place
@@ -31,7 +32,6 @@ class Container:
     json: dict[str, Any]
     binary: bytes | None  # the BIN chunk, None where there is none
     other_chunks: tuple[tuple[int, bytes], ...]  # type and content of chunks we do not know
-    glb: bool
 
 
 def split(data: bytes, name: str) -> Container:
@@ -45,7 +45,7 @@ def split(data: bytes, name: str) -> Container:
     start = data[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
     if not start.startswith(b"{"):
         raise RigError(f"{name}: is not a glTF file (.glb or .gltf)")
-    return Container(_parse_json(data, name), None, (), False)
+    return Container(_parse_json(data, name), None, ())
 
 
 def _split_glb(data: bytes, name: str) -> Container:
@@ -71,17 +71,20 @@ def _split_glb(data: bytes, name: str) -> Container:
     others = tuple(chunk for chunk in chunks[1:] if chunk[0] != BINARY_CHUNK)
     if len(binaries) > 1:
         raise RigError(f"{name}: has {len(binaries)} BIN chunks, but may have one")
-    return Container(
-        _parse_json(chunks[0][1], name), binaries[0] if binaries else None, others, True
-    )
+    binary = binaries[0] if binaries else None
+    return Container(_parse_json(chunks[0][1], name), binary, others)
 
 
 def _parse_json(text: bytes, name: str) -> dict[str, Any]:
-    def refuse(constant: str) -> None:
+    def refuse(constant: str) -> NoReturn:
         raise ValueError(f"{constant} is not allowed")
 
+    def number(digits: str) -> float:
+        value = float(digits)
+        return value if math.isfinite(value) else refuse(digits)
+
     try:
-        parsed = json.loads(text.decode("utf-8-sig"), parse_constant=refuse)
+        parsed = json.loads(text.decode("utf-8-sig"), parse_constant=refuse, parse_float=number)
     except (ValueError, RecursionError) as fault:
         raise RigError(f"{name}: its JSON cannot be parsed: {str(fault)[:120]}") from None
     if not isinstance(parsed, dict):

@@ -24,6 +24,21 @@ from polypod.rigs.nodes import FloatArray, IntArray, local_matrix, read_parents,
 
 __all__ = ["GltfDocument", "MeshPart", "Skin"]
 
+# Every list that the writer may add to or walk through.
+LISTS = (
+    "accessors",
+    "animations",
+    "buffers",
+    "bufferViews",
+    "images",
+    "materials",
+    "meshes",
+    "nodes",
+    "scenes",
+    "skins",
+    "textures",
+)
+
 
 class GltfDocument:
     """A glTF file: `json` and `binary` as they are in it, and arrays read from them.
@@ -35,7 +50,7 @@ class GltfDocument:
         other_chunks: type and content of the GLB's chunks that are neither JSON nor BIN.
         buffers: the bytes of every buffer, wherever they were.
         folder: where outside files are looked for, None where there are none.
-        is_glb: whether it came as a GLB.
+        has_binary_chunk: whether it came as a GLB with a BIN chunk.
     """
 
     def __init__(self, parts: container.Container, name: str, folder: Path | None):
@@ -47,7 +62,7 @@ class GltfDocument:
         self.name = name
         self.folder = folder
         self.json: dict[str, Any] = parts.json
-        self.is_glb = parts.glb
+        self.has_binary_chunk = parts.binary is not None
         self.other_chunks = parts.other_chunks
         self.root = Place(name, "", parts.json)
         self.buffers = container.load_buffers(self.root, parts.binary, folder)
@@ -137,6 +152,8 @@ class GltfDocument:
 
     def _judge(self) -> None:
         """Read all that a rig needs, once, so that what is wrong is said here."""
+        for key in LISTS:
+            self.root.parts(key)
         self._parents = read_parents(self._nodes)
         count = len(self._nodes)
         self._local = np.array([local_matrix(place) for place in self._nodes]).reshape(count, 4, 4)
