@@ -1,0 +1,67 @@
+"""A pose for every joint: legs by inverse kinematics, the rest riding on them and on the body."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from polypod.body.reach import effector_world
+from polypod.compute import kernel
+from polypod.ik.solve import solve_leg
+from polypod.math.quat import Quat, load_quat, rotate, store_quat, unrotate
+from polypod.math.vec3 import Vec3, distance, load_vec3, store_vec3
+
+
+@kernel
+def pose_leg_of(
+    c: int, k: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratch: Any
+) -> None:
+    """Pose one leg so that its sole is where it was planned; note where it really is."""
+    legs = tables.legs
+    foot_turn = load_quat(state.foot_rotation[c, k])
+    sole = load_vec3(state.foot[c, k])
+    effector = effector_world(k, tables, sole, foot_turn)
+    target_body = unrotate(turn, effector - position)
+    solve_leg(tables.ik, k, target_body, scratch.leg_rotation, scratch.leg_point)
+    count = legs.joint_count[k]
+    for i in range(count):
+        joint = legs.joint[k, i]
+        store_vec3(
+            state.joint_position[c, joint],
+            position + rotate(turn, load_vec3(scratch.leg_point[i])),
+        )
+        store_quat(state.joint_rotation[c, joint], turn * load_quat(scratch.leg_rotation[i]))
+    reached = position + rotate(turn, load_vec3(scratch.leg_point[count]))
+    foot_joint = legs.foot_joint[k]
+    if foot_joint >= 0:
+        store_vec3(state.joint_position[c, foot_joint], reached)
+        store_quat(state.joint_rotation[c, foot_joint], foot_turn)
+        ankle_rest = load_vec3(legs.point_rest[k, count])
+        reached = reached + rotate(foot_turn, load_vec3(legs.sole_rest[k]) - ankle_rest)
+    store_vec3(state.foot_reached[c, k], reached)
+    state.residual[c, k] = distance(reached, sole)
+
+
+@kernel
+def pose_joints(c: int, state: Any, tables: Any, scratch: Any) -> None:
+    """Write the pose of every joint of a creature: world positions, rotations away from the rest."""
+    position = load_vec3(state.position[c])
+    turn = load_quat(state.rotation[c])
+    for k in range(state.stance.shape[1]):
+        pose_leg_of(c, k, position, turn, state, tables, scratch)
+    joints = tables.joints
+    for j in range(joints.parent.shape[0]):
+        if joints.driven[j]:
+            continue
+        parent = joints.parent[j]
+        place = load_vec3(joints.rest[j])
+        if parent < 0:
+            store_vec3(state.joint_position[c, j], position + rotate(turn, place))
+            store_quat(state.joint_rotation[c, j], turn)
+            continue
+        parent_turn = load_quat(state.joint_rotation[c, parent])
+        arm = place - load_vec3(joints.rest[parent])
+        store_vec3(
+            state.joint_position[c, j],
+            load_vec3(state.joint_position[c, parent]) + rotate(parent_turn, arm),
+        )
+        store_quat(state.joint_rotation[c, j], parent_turn)
