@@ -78,6 +78,9 @@ class Settings:
     spacing_rate: float = 0.5
     """How fast feet spacing moves to a new target, leg lengths a second (P1 Fig 6)."""
 
+    foot_align: float = 1.0
+    """Share of the ground's tilt that a foot joint takes on in stance."""
+
     foot_tilt: float = 0.6
     """Largest tilt of a foot joint to the ground, radians."""
 

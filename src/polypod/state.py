@@ -34,7 +34,7 @@ class HerdTables(NamedTuple):
     leg_length: float  # mean over legs, m: the unit of all tolerances
     hip_height: float  # mean height of the hips above the soles in stance, m
     pendulum_time: float  # sqrt(leg length / g), s
-    upright: bool  # most legs stand below their hips
+    tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
 
 
 class HerdState(NamedTuple):

@@ -26,18 +26,18 @@ def effector_world(k: int, tables: Any, sole_world: Vec3, foot_rotation: Quat) -
 
 @kernel
 def foot_shift(
-    c: int, k: int, state: Any, tables: Any, position: Vec3, rotation: Quat
+    k: int, tables: Any, sole_world: Vec3, foot_turn: Quat, position: Vec3, turn: Quat
 ) -> Vec3:
-    """Return the least shift of a foot, world, that brings it within its leg's reach."""
-    target = effector_world(
-        k, tables, load_vec3(state.foot[c, k]), load_quat(state.foot_rotation[c, k])
-    )
-    shift_body = reach_shift(tables.ik, k, unrotate(rotation, target - position))
-    return rotate(rotation, shift_body)
+    """Return the least shift of a foot, world, that brings it within its leg's reach.
+
+    `position` and `turn` are the body's pose; the shift is zero where the leg reaches the sole.
+    """
+    target = effector_world(k, tables, sole_world, foot_turn)
+    return rotate(turn, reach_shift(tables.ik, k, unrotate(turn, target - position)))
 
 
 @kernel
-def body_within_reach(c: int, state: Any, tables: Any, position: Vec3, rotation: Quat) -> Vec3:
+def body_within_reach(c: int, state: Any, tables: Any, position: Vec3, turn: Quat) -> Vec3:
     """Return the position nearest to `position` at which all stance feet are within reach.
 
     Each pass moves the body against each foot's own shift in turn (projections onto nearly convex
@@ -48,7 +48,9 @@ def body_within_reach(c: int, state: Any, tables: Any, position: Vec3, rotation:
         worst = 0.0
         for k in range(state.stance.shape[1]):
             if state.stance[c, k]:
-                shift = foot_shift(c, k, state, tables, position, rotation)
+                sole = load_vec3(state.foot[c, k])
+                foot_turn = load_quat(state.foot_rotation[c, k])
+                shift = foot_shift(k, tables, sole, foot_turn, position, turn)
                 size = length(shift)
                 if size > tolerance:
                     position = position - shift * (1.0 + 0.2 * tolerance / size)

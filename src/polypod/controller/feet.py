@@ -9,23 +9,12 @@ from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, predict
-from polypod.environment.table import surface, surface_normal
+from polypod.environment.table import surface_normal
 from polypod.footprints.plan import plan_step
 from polypod.footprints.settings import StepRequest
-from polypod.gait.needle import phase_until, swing_progress
 from polypod.ik.foot import foot_rotation
-from polypod.math.quat import Quat, load_quat, rotate, slerp, store_quat
+from polypod.math.quat import rotate, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
-from polypod.paths.curve import PROFILE_BELL, path_point, path_row, path_velocity
-from polypod.paths.curve import swing_progress as progress_on_path
-
-# A late or replanned swing may run at most so many times as fast as its disk says.
-FASTEST_CATCH_UP = 2.0
-# Standing feet closer than this to their rest place stay, leg lengths.
-IN_PLACE = 0.06
-# A creature that turns or moves slower than this share of its walk is standing, per second.
-STILL = 0.01
-
 
 @kernel
 def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
@@ -71,7 +60,7 @@ def hip_at(c: int, k: int, pose: PlanPose, state: Any, tables: Any) -> Vec3:
 
 
 @kernel
-def gather_other_legs(c: int, k: int, state: Any, tables: Any, scratch: Any) -> int:
+def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int:
     """Write the segments of the other legs near foot `k` to the scratch; return their number.
 
     Of each leg whose foot could be met, the last section before the sole counts, as it is now for
@@ -81,16 +70,16 @@ def gather_other_legs(c: int, k: int, state: Any, tables: Any, scratch: Any) -> 
     legs = tables.legs
     for other in range(state.stance.shape[1]):
         gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
-        if other == k or length_plan(gap) > legs.length[k] or count >= scratch.other_a.shape[0]:
+        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
             continue
         sole = foot_on_its_way(c, other, state)
         if not state.stance[c, other]:
             sole = load_vec3(state.foot_target[c, other])
         knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
         moved = sole - load_vec3(state.foot_reached[c, other])
-        store_vec3(scratch.other_a[count], sole)
-        store_vec3(scratch.other_b[count], knee + moved)
-        scratch.other_radius[count] = 0.5 * max(
+        store_vec3(plan.other_a[count], sole)
+        store_vec3(plan.other_b[count], knee + moved)
+        plan.other_radius[count] = 0.5 * max(
             legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
         )
         count += 1
@@ -99,53 +88,54 @@ def gather_other_legs(c: int, k: int, state: Any, tables: Any, scratch: Any) -> 
 
 @kernel
 def preferred_footprint(
-    c: int, k: int, touchdown: float, state: Any, command: Any, tables: Any, settings: Any
-) -> Vec3:
+    c: int, k: int, pose: PlanPose, touchdown: float,
+    state: Any, command: Any, tables: Any, settings: Any,
+) -> Vec3:  # fmt: skip
     """Return where a foot would land on the plan, `touchdown` seconds ahead (P1 3.2, Fig 4a).
 
     The rest place carried by the body as predicted for the middle of the coming stance: that is
     the pose at touchdown plus half of the stance's travel along the predicted arc.
     """
     stance = (1.0 - state.swing_extent[c, k]) / max(state.cycle_rate[c], 1e-6)
-    pose = predict(c, state, command, tables, settings, touchdown + 0.5 * stance)
-    offset = rest_offset(c, k, pose.heading, state, tables, settings)
-    return Vec3(pose.x + offset.x, state.foot[c, k, 1], pose.z + offset.z)
+    middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
+    offset = rest_offset(c, k, middle.heading, state, tables, settings)
+    return Vec3(middle.x + offset.x, state.foot[c, k, 1], middle.z + offset.z)
 
 
 @kernel
 def plan_foot(
-    c: int, k: int, preferred: Vec3, touchdown: float, velocity: Vec3, radius: float,
-    state: Any, command: Any, tables: Any, settings: Any, env: Any, plan: Any, scratch: Any,
+    c: int, k: int, pose: PlanPose, preferred: Vec3, touchdown: float, velocity: Vec3,
+    radius: float,
+    state: Any, command: Any, tables: Any, settings: Any, env: Any, plan_settings: Any, scratch: Any,
 ) -> bool:  # fmt: skip
     """Plan a foot's way from where it is to the best place near `preferred`.
 
-    Writes the path, the target and the touchdown orientation; returns False and writes nothing but
-    the path's memory where no valid pair of footprint and path was found.
+    The path is left in the scratch; the target and the touchdown orientation go to the state.
+    Returns False where no valid pair of footprint and path was found; the state is then untouched.
     """
     legs = tables.legs
     stance = (1.0 - state.swing_extent[c, k]) / max(state.cycle_rate[c], 1e-6)
-    now = predict(c, state, command, tables, settings, 0.0)
-    landing = predict(c, state, command, tables, settings, touchdown)
-    middle = predict(c, state, command, tables, settings, touchdown + 0.5 * stance)
-    leaving = predict(c, state, command, tables, settings, touchdown + stance)
+    landing = predict(pose, touchdown, c, command, tables, settings)
+    middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
+    leaving = predict(pose, touchdown + stance, c, command, tables, settings)
     start = load_vec3(state.foot[c, k])
     turn = foot_rotation(
-        middle.heading, surface_normal(env, preferred.x, preferred.z), settings.foot_tilt
+        middle.heading, surface_normal(env, preferred.x, preferred.z), settings.foot_align, settings.foot_tilt
     )
     hip = hip_at(c, k, landing, state, tables)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
-    others = gather_other_legs(c, k, state, tables, scratch)
+    others = gather_other_legs(c, k, state, tables, scratch.plan)
     request = StepRequest(
         start,
         velocity,
         preferred,
-        hip_at(c, k, now, state, tables),
+        hip_at(c, k, pose, state, tables),
         hip,
         hip_at(c, k, leaving, state, tables),
         effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn),
-        tables.ik.reach_min[k],
-        tables.ik.reach_max[k],
-        tables.ik.reach_comfort[k],
+        tables.ik.shortest[k],
+        tables.ik.longest[k],
+        tables.ik.comfortable[k],
         legs.length[k],
         command.step_height[c],
         legs.foot_half_size[k, 0],
@@ -158,13 +148,12 @@ def plan_foot(
         radius,
         others,
     )
-    row = path_row(state.path, c, k)
-    found, _ = plan_step(env, plan, scratch, request, row)
+    found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
     if not found:
         return False
-    target = load_vec3(row.point[row.count[0] - 1])
+    target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
     turn = foot_rotation(
-        middle.heading, surface_normal(env, target.x, target.z), settings.foot_tilt
+        middle.heading, surface_normal(env, target.x, target.z), settings.foot_align, settings.foot_tilt
     )
     store_vec3(state.foot_preferred[c, k], preferred)
     store_vec3(state.foot_target[c, k], target)

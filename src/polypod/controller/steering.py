@@ -113,13 +113,45 @@ def plan_pose(c: int, state: Any) -> PlanPose:
 
 @kernel
 def predict(
-    c: int, state: Any, command: Any, tables: Any, settings: Any, seconds: float
+    pose: PlanPose, seconds: float, c: int, command: Any, tables: Any, settings: Any
 ) -> PlanPose:
     """Return the pose on the plane `seconds` ahead, as `steer` will bring it about."""
-    pose = plan_pose(c, state)
     dt = seconds / PREDICTION_STEPS
     if dt < 1e-9:
         return pose
     for _ in range(PREDICTION_STEPS):
         pose = steer(pose, c, command, tables, settings, dt)
     return pose
+
+
+@kernel
+def feedback(c: int, state: Any, tables: Any, settings: Any) -> tuple[float, float]:
+    """Return the velocity, world x and z, by which the body follows its feet (P1 3.2, Fig 7).
+
+    The mean offset of the chosen footprints from the preferred ones, discarded while it is small
+    for this morphology, made up at a share of it a gait cycle.
+    """
+    count = state.stance.shape[1]
+    x = 0.0
+    z = 0.0
+    for k in range(count):
+        x += (state.foot_target[c, k, 0] - state.foot_preferred[c, k, 0]) / count
+        z += (state.foot_target[c, k, 2] - state.foot_preferred[c, k, 2]) / count
+    size = math.hypot(x, z)
+    threshold = settings.feedback_threshold * tables.leg_length
+    if size <= threshold:
+        return 0.0, 0.0
+    share = settings.feedback_share * state.cycle_rate[c] * (1.0 - threshold / size)
+    return x * share, z * share
+
+
+@kernel
+def move_body(
+    c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any
+) -> PlanPose:
+    """Return the pose on the plane at the end of the frame: steered, and refined by the feet."""
+    pose = steer(plan_pose(c, state), c, command, tables, settings, dt)
+    x, z = feedback(c, state, tables, settings)
+    return PlanPose(
+        pose.x + x * dt, pose.z + z * dt, pose.heading, pose.turn_rate, pose.speed, pose.waypoint
+    )

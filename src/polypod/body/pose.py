@@ -1,0 +1,113 @@
+"""The body's height and tilt as they are wished for, before the legs' reach is asked (P1 3.2)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.body.hull import least_height
+from polypod.body.reach import effector_world
+from polypod.body.smoothing import follow
+from polypod.body.support import FeetPlane
+from polypod.compute import kernel
+from polypod.controller.steering import GRAVITY, PlanPose
+from polypod.math.quat import Quat, load_quat, rotate
+from polypod.math.vec3 import Vec3, load_vec3
+
+# P1's sinusoid is never larger than this, hip heights.
+LARGEST_BOB = 0.02
+
+
+@kernel
+def bob(c: int, state: Any, tables: Any, settings: Any) -> float:
+    """Return P1's sinusoidal movement of the body, metres (P1 3.2).
+
+    Each foot pulls the body along a cosine that is lowest at its mid-stance, once a cycle; its
+    size is what a ballistic hop between two beats would be at duty factor one half (0.0085 g T^2
+    for two beats a cycle, BIOMECHANICS 3). Many feet out of step cancel, as in life.
+    """
+    rate = state.cycle_rate[c]
+    if rate <= 0.0:
+        return 0.0
+    count = state.stance.shape[1]
+    first_cosine = 0.0
+    first_sine = 0.0
+    second_cosine = 0.0
+    second_sine = 0.0
+    for k in range(count):
+        middle = state.swing_start[c, k] + 0.5 * (1.0 + state.swing_extent[c, k])
+        angle = 2.0 * math.pi * (state.needle[c] - middle)
+        first_cosine += math.cos(angle) / count
+        first_sine += math.sin(angle) / count
+        second_cosine += math.cos(2.0 * angle) / count
+        second_sine += math.sin(2.0 * angle) / count
+    beat = GRAVITY / (rate * rate)
+    most = LARGEST_BOB * tables.hip_height
+    one = min(most, 0.5 * 0.0340 * beat)
+    two = min(most, 0.5 * 0.0085 * beat)
+    slow = min(1.0, abs(state.speed[c]) / (0.1 * tables.leg_length / tables.pendulum_time))
+    height: float = -settings.bob * slow * (one * first_cosine + two * second_cosine)
+    return height
+
+
+@kernel
+def highest(c: int, state: Any, tables: Any, pose: PlanPose, turn: Quat) -> float:
+    """Return the greatest height at which all feet, also those about to land, are in comfort."""
+    best = math.inf
+    for k in range(state.stance.shape[1]):
+        place = load_vec3(state.foot_target[c, k])
+        ankle = effector_world(k, tables, place, load_quat(state.foot_rotation_target[c, k]))
+        hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
+        reach = tables.ik.comfortable[k]
+        dx = pose.x + hip.x - ankle.x
+        dz = pose.z + hip.z - ankle.z
+        flat = min(dx * dx + dz * dz, 0.9 * reach * reach)
+        best = min(best, ankle.y + math.sqrt(reach * reach - flat) - hip.y)
+    return best
+
+
+@kernel
+def update_tilt(c: int, dt: float, plane: FeetPlane, state: Any, tables: Any, settings: Any) -> None:
+    """Let pitch and roll follow the slopes of the feet's plane."""
+    state.slope[c, 0] = plane.slope_forward
+    state.slope[c, 1] = plane.slope_left
+    share = settings.tilt_share * tables.tilt_scale
+    seconds = settings.tilt_smoothing * cycle_seconds(c, state, tables)
+    follow(state.tilt[c, 0], plane.slope_forward * share, seconds, dt)
+    follow(state.tilt[c, 1], plane.slope_left * share, seconds, dt)
+
+
+@kernel
+def cycle_seconds(c: int, state: Any, tables: Any) -> float:
+    """Return the seconds of a gait cycle, or those of a slow step for who stands."""
+    slowest = 4.0 * tables.pendulum_time
+    if state.cycle_rate[c] <= 0.0:
+        return float(slowest)
+    return float(min(slowest, 1.0 / state.cycle_rate[c]))
+
+
+@kernel
+def wished_height(
+    c: int, dt: float, pose: PlanPose, plane: FeetPlane, turn: Quat,
+    state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any,
+) -> float:  # fmt: skip
+    """Return the height of the body centre, world, before the legs' reach is asked exactly.
+
+    The preferred height above the feet's plane; at least what the hulls under the trunk ask; at
+    most what the legs comfortably reach. The difference to the preferred height is smoothed, so
+    that it comes and goes with continuous acceleration.
+    """
+    seconds = settings.height_smoothing * cycle_seconds(c, state, tables)
+    dx = pose.x - state.position[c, 0]
+    dz = pose.z - state.position[c, 2]
+    sine = math.sin(pose.heading)
+    cosine = math.cos(pose.heading)
+    base = plane.height + command.body_height[c]
+    base += plane.slope_forward * (dx * sine + dz * cosine)
+    base += plane.slope_left * (dx * cosine - dz * sine)
+    ahead = abs(state.speed[c]) * seconds
+    least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
+    extra = max(0.0, least - base)
+    most = highest(c, state, tables, pose, turn)
+    extra = min(extra, most - base)
+    return base + follow(state.lift[c], extra, seconds, dt) + bob(c, state, tables, settings)

@@ -1,0 +1,199 @@
+"""Lifting a foot, carrying it along its path, planning it anew when its world changed."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.compute import kernel
+from polypod.controller.feet import plan_foot, preferred_footprint, rest_offset
+from polypod.controller.steering import PlanPose
+from polypod.gait.needle import swing_progress
+from polypod.math.quat import Quat, load_quat, slerp
+from polypod.math.vec3 import Vec3, length_plan, load_vec3, store_vec3
+from polypod.paths.curve import PROFILE_BELL, path_point, path_row, path_velocity
+from polypod.paths.curve import swing_progress as progress_on_path
+
+# A late or replanned swing may run at most so many times as fast as its disk says.
+FASTEST_CATCH_UP = 2.0
+# Standing feet closer than this to their rest place stay, leg lengths.
+IN_PLACE = 0.05
+# Speeds below this, in leg lengths a pendulum time, are standing.
+STILL = 1e-3
+
+
+@kernel
+def is_moving(c: int, state: Any, command: Any, tables: Any) -> bool:
+    """Return whether the body moves or turns over the ground, or is about to."""
+    still = STILL * tables.leg_length / tables.pendulum_time
+    turning = abs(state.turn_rate[c]) * tables.leg_length
+    return abs(state.speed[c]) > still or turning > still  # type: ignore[no-any-return]
+
+
+@kernel
+def off_place(c: int, k: int, state: Any, tables: Any, settings: Any) -> bool:
+    """Return whether a foot stands too far from its rest place under a standing body."""
+    offset = rest_offset(c, k, state.heading[c], state, tables, settings)
+    # Against what it asked for: what it could not have then is no reason to step for ever.
+    gap_x = state.position[c, 0] + offset.x - state.foot_preferred[c, k, 0]
+    gap_z = state.position[c, 2] + offset.z - state.foot_preferred[c, k, 2]
+    return math.hypot(gap_x, gap_z) > IN_PLACE * tables.legs.length[k]  # type: ignore[no-any-return]
+
+
+@kernel
+def lift_feet(
+    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Let the feet whose sector the needle has entered leave the ground, if they find a place.
+
+    A foot may lift late, inside a window of its disk; never where that would leave fewer feet down
+    than the gait's own minimum. One that finds no place holds its own and looks farther next time.
+    """
+    moving = is_moving(c, state, command, tables)
+    down = 0
+    for k in range(state.stance.shape[1]):
+        if state.stance[c, k]:
+            down += 1
+    for k in range(state.stance.shape[1]):
+        if not state.stance[c, k]:
+            continue
+        gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
+        if gone < 0.0 or gone > settings.late_lift or down <= command.gait_minimum[c]:
+            continue
+        if not moving and not off_place(c, k, state, tables, settings):
+            continue
+        touchdown = (1.0 - gone) * state.swing_extent[c, k] / state.cycle_rate[c]
+        radius = settings.search_radius * tables.legs.length[k]
+        if state.waiting[c, k] > 0.0:
+            radius *= settings.wider_search
+        preferred = preferred_footprint(c, k, pose, touchdown, state, command, tables, settings)
+        still = Vec3(0.0, 0.0, 0.0)
+        if plan_foot(
+            c, k, pose, preferred, touchdown, still, radius,
+            state, command, tables, settings, env, plan_settings, scratch,
+        ):  # fmt: skip
+            begin_swing(c, k, gone, 0.0, state, scratch)
+            state.waiting[c, k] = 0.0
+            down -= 1
+        else:
+            state.waiting[c, k] += dt
+
+
+@kernel
+def begin_swing(c: int, k: int, gone: float, launch: float, state: Any, scratch: Any) -> None:
+    """Put a foot on the path just planned, at the share `gone` of its swing sector."""
+    trial = scratch.path
+    kept = path_row(state.path, c, k)
+    kept.count[0] = trial.count[0]
+    kept.length[0] = trial.length[0]
+    for i in range(trial.count[0]):
+        kept.fraction[i] = trial.fraction[i]
+        for axis in range(3):
+            kept.point[i, axis] = trial.point[i, axis]
+            kept.tangent[i, axis] = trial.tangent[i, axis]
+    for axis in range(3):
+        state.foot_start[c, k, axis] = state.foot[c, k, axis]
+    for axis in range(4):
+        state.foot_rotation_start[c, k, axis] = state.foot_rotation[c, k, axis]
+    state.stance[c, k] = False
+    state.swing_from[c, k] = gone
+    state.swing_progress[c, k] = 0.0
+    state.path_launch[c, k] = launch
+
+
+@kernel
+def swing_time_left(c: int, k: int, state: Any) -> float:
+    """Return the seconds until touchdown that the disk, or a late foot's own pace, leaves."""
+    rate = state.cycle_rate[c]
+    gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
+    share = (1.0 - gone) if gone >= 0.0 else 0.0
+    own = (1.0 - state.swing_progress[c, k]) * (1.0 - state.swing_from[c, k]) / FASTEST_CATCH_UP
+    left: float = max(share, own) * state.swing_extent[c, k] / rate
+    return left
+
+
+@kernel
+def replan_feet(
+    c: int, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Plan swinging feet anew whose preferred place has moved, or whose body holds them back.
+
+    Position and velocity are continuous at the join: the new path starts along the present
+    velocity and is launched at the present speed.
+    """
+    for k in range(state.stance.shape[1]):
+        if state.stance[c, k] or state.swing_progress[c, k] > settings.replan_until:
+            continue
+        left = swing_time_left(c, k, state)
+        preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)
+        moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
+        if moved <= settings.replan_distance * tables.legs.length[k]:
+            continue
+        row = path_row(state.path, c, k)
+        along, rate = progress_on_path(
+            PROFILE_BELL, state.swing_progress[c, k], state.path_launch[c, k]
+        )
+        # Per unit of the old swing; the new one takes the share that is left.
+        share = 1.0 - state.swing_progress[c, k]
+        velocity = path_velocity(row.point, row.tangent, row.fraction, row.count[0], along) * (
+            rate * share
+        )
+        speed = rate * share * row.length[0]
+        radius = settings.search_radius * tables.legs.length[k]
+        if plan_foot(
+            c, k, pose, preferred, left, velocity, radius,
+            state, command, tables, settings, env, plan_settings, scratch,
+        ):  # fmt: skip
+            gone = state.swing_from[c, k] + state.swing_progress[c, k] * (
+                1.0 - state.swing_from[c, k]
+            )
+            launch = speed / max(scratch.path.length[0], 1e-12)
+            begin_swing(c, k, gone, launch, state, scratch)
+
+
+@kernel
+def wished_progress(c: int, k: int, dt: float, state: Any) -> float:
+    """Return how far along its swing a foot should be by now, its catching up bounded."""
+    gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
+    span = 1.0 - state.swing_from[c, k]
+    wished = 1.0 if gone < 0.0 else (gone - state.swing_from[c, k]) / span
+    pace = state.cycle_rate[c] / (state.swing_extent[c, k] * span)
+    most = state.swing_progress[c, k] + FASTEST_CATCH_UP * pace * dt
+    progress: float = min(1.0, max(state.swing_progress[c, k], min(wished, most)))
+    return progress
+
+
+@kernel
+def foot_along(c: int, k: int, progress: float, state: Any) -> tuple[Vec3, Quat]:
+    """Return the sole and the foot's orientation at a share of the swing's time."""
+    row = path_row(state.path, c, k)
+    along, _ = progress_on_path(PROFILE_BELL, progress, state.path_launch[c, k])
+    sole = path_point(row.point, row.tangent, row.fraction, row.count[0], along)
+    turn = slerp(
+        load_quat(state.foot_rotation_start[c, k]),
+        load_quat(state.foot_rotation_target[c, k]),
+        along,
+    )
+    return sole, turn
+
+
+@kernel
+def shift_spacing(c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any) -> None:
+    """Move each foot's rest place to the wished one at a set rate (P1 Fig 6)."""
+    for k in range(state.stance.shape[1]):
+        most = settings.spacing_rate * tables.legs.length[k] * dt
+        for axis in range(2):
+            gap = command.spacing[c, k, axis] - state.spacing[c, k, axis]
+            state.spacing[c, k, axis] += min(most, max(-most, gap))
+
+
+@kernel
+def store_foot(c: int, k: int, sole: Vec3, turn: Quat, state: Any) -> None:
+    """Write a foot's place and orientation into the state."""
+    store_vec3(state.foot[c, k], sole)
+    state.foot_rotation[c, k, 0] = turn.x
+    state.foot_rotation[c, k, 1] = turn.y
+    state.foot_rotation[c, k, 2] = turn.z
+    state.foot_rotation[c, k, 3] = turn.w
