@@ -7,20 +7,21 @@ highest over a point of the plan is the surface there.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from polypod.compute import kernel
+from polypod.environment.shapes import column_of, depth_inside, plan_distance, top_normal_of
+from polypod.math.vec3 import Vec3
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 
 GROUND = -1  # the support of a foot that stands on the terrain
-
-BOX = 0  # also every convex hull: described by its planes
-SPHERE = 1
-CYLINDER = 2
 
 
 class EnvironmentTable(NamedTuple):
@@ -50,3 +51,168 @@ class EnvironmentTable(NamedTuple):
     bucket_start: IntArray  # [rows * columns + 1]
     bucket_item: IntArray  # [items] obstacle indices
     bucket_range: IntArray  # [O, 4] first row, first column, last row, last column (inclusive)
+
+
+@kernel
+def _patch(env: EnvironmentTable, x: float, z: float) -> tuple[int, int, float, float]:
+    """Return row and column of the patch of terrain at (x, z) and the place in it, from 0 to 1.
+
+    Beyond the edge it is the nearest place at the edge.
+    """
+    rows, columns = env.heights.shape
+    u = (x - env.terrain_place[0]) / env.terrain_place[2]
+    v = (z - env.terrain_place[1]) / env.terrain_place[2]
+    u = min(max(u, 0.0), columns - 1.0)
+    v = min(max(v, 0.0), rows - 1.0)
+    column = min(int(u), columns - 2)
+    row = min(int(v), rows - 2)
+    return row, column, u - column, v - row
+
+
+@kernel
+def ground_height(env: EnvironmentTable, x: float, z: float) -> float:
+    """Return the terrain's height in metres, bilinear between its samples; no obstacles."""
+    row, column, u, v = _patch(env, x, z)
+    near = env.heights[row, column] * (1.0 - u) + env.heights[row, column + 1] * u
+    far = env.heights[row + 1, column] * (1.0 - u) + env.heights[row + 1, column + 1] * u
+    return float(near * (1.0 - v) + far * v)
+
+
+@kernel
+def ground_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
+    """Return the terrain's unit normal; between two patches, that of the one further along x, z."""
+    row, column, u, v = _patch(env, x, z)
+    a = env.heights[row, column]
+    b = env.heights[row, column + 1]
+    c = env.heights[row + 1, column]
+    d = env.heights[row + 1, column + 1]
+    slope_x = ((b - a) * (1.0 - v) + (d - c) * v) / env.terrain_place[2]
+    slope_z = ((c - a) * (1.0 - u) + (d - b) * u) / env.terrain_place[2]
+    # Beyond the edge the ground is level across it.
+    rows, columns = env.heights.shape
+    over_x = (x - env.terrain_place[0]) / env.terrain_place[2]
+    over_z = (z - env.terrain_place[1]) / env.terrain_place[2]
+    if over_x < 0.0 or over_x > columns - 1.0:
+        slope_x = 0.0
+    if over_z < 0.0 or over_z > rows - 1.0:
+        slope_z = 0.0
+    size = math.sqrt(1.0 + slope_x * slope_x + slope_z * slope_z)
+    return Vec3(-slope_x / size, 1.0 / size, -slope_z / size)
+
+
+@kernel
+def bucket_at(env: EnvironmentTable, x: float, z: float) -> int:
+    """Return the bucket of a plan point, or -1 where there is none."""
+    column = math.floor((x - env.bucket_place[0]) / env.bucket_place[2])
+    row = math.floor((z - env.bucket_place[1]) / env.bucket_place[2])
+    if row < 0 or column < 0 or row >= env.bucket_shape[0] or column >= env.bucket_shape[1]:
+        return -1
+    return int(row * env.bucket_shape[1] + column)
+
+
+@kernel
+def bucket_line(env: EnvironmentTable, value: float, axis: int) -> int:
+    """Return the column (axis 0, of x) or row (axis 1, of z), moved into the grid."""
+    line = math.floor((value - env.bucket_place[axis]) / env.bucket_place[2])
+    return int(min(max(line, 0.0), env.bucket_shape[1 - axis] - 1.0))
+
+
+@kernel
+def first_met(env: EnvironmentTable, o: int, row: int, column: int, top: int, left: int) -> bool:
+    """Say whether bucket (row, column) is the first that lists `o` in a range that starts there.
+
+    A range of buckets from (top, left) lists an obstacle many times; this picks one of them.
+    """
+    met_row = max(top, env.bucket_range[o, 0])
+    met_column = max(left, env.bucket_range[o, 1])
+    return bool(row == met_row and column == met_column)
+
+
+@kernel
+def surface(env: EnvironmentTable, x: float, z: float) -> tuple[float, int]:
+    """Return the height of the highest surface at a plan point and what it is.
+
+    The support is the index of an obstacle, or GROUND (-1). Between equals the ground wins, then
+    the lower index.
+    """
+    height = ground_height(env, x, z)
+    support = GROUND
+    bucket = bucket_at(env, x, z)
+    if bucket >= 0:
+        for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
+            o = env.bucket_item[i]
+            if (
+                x >= env.bounds[o, 0]
+                and x <= env.bounds[o, 3]
+                and z >= env.bounds[o, 2]
+                and z <= env.bounds[o, 5]
+            ):
+                top = column_of(env, o, x, z)[1]
+                if top > height:
+                    height = top
+                    support = o
+    return height, support
+
+
+@kernel
+def surface_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
+    """Return the unit normal of the highest surface at a plan point."""
+    support = surface(env, x, z)[1]
+    if support == GROUND:
+        return ground_normal(env, x, z)
+    return top_normal_of(env, support, x, z)
+
+
+@kernel
+def is_forbidden(env: EnvironmentTable, x: float, z: float, margin: float) -> bool:
+    """Say whether a forbidden obstacle's footprint comes within `margin` metres in plan."""
+    if env.bucket_shape[0] == 0:
+        return False
+    left = bucket_line(env, x - margin, 0)
+    right = bucket_line(env, x + margin, 0)
+    top = bucket_line(env, z - margin, 1)
+    bottom = bucket_line(env, z + margin, 1)
+    for row in range(top, bottom + 1):
+        for column in range(left, right + 1):
+            bucket = row * env.bucket_shape[1] + column
+            for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
+                o = env.bucket_item[i]
+                if not env.forbidden[o] or not first_met(env, o, row, column, top, left):
+                    continue
+                if plan_distance(env, o, x, z) <= margin:
+                    return True
+    return False
+
+
+@kernel
+def is_wet(env: EnvironmentTable, x: float, z: float) -> bool:
+    """Say whether a plan point lies in water: the terrain's nearest sample is marked so."""
+    if env.water.shape[0] == 0:
+        return False
+    rows, columns = env.water.shape
+    column = math.floor((x - env.terrain_place[0]) / env.terrain_place[2] + 0.5)
+    row = math.floor((z - env.terrain_place[1]) / env.terrain_place[2] + 0.5)
+    column = min(max(column, 0.0), columns - 1.0)
+    row = min(max(row, 0.0), rows - 1.0)
+    return bool(env.water[int(row), int(column)])
+
+
+@kernel
+def penetration(env: EnvironmentTable, point_world: Vec3) -> tuple[float, int]:
+    """Return how deep a point is inside something, in metres, and in what; outside at most 0.
+
+    In an obstacle it is the exact distance to its surface. In the terrain it is the distance to the
+    plane that touches the ground right above: the vertical depth times the slope's cosine.
+    """
+    below = ground_height(env, point_world.x, point_world.z) - point_world.y
+    depth = below * ground_normal(env, point_world.x, point_world.z).y
+    support = GROUND
+    bucket = bucket_at(env, point_world.x, point_world.z)
+    if bucket >= 0:
+        for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
+            o = env.bucket_item[i]
+            inside = depth_inside(env, o, point_world)
+            if inside > depth:
+                depth = inside
+                support = o
+    return depth, support

@@ -1,0 +1,121 @@
+"""Terrain and obstacles become the arrays that kernels read; done once for a static world."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from polypod.environment.convex import FloatArray, polygon_sides
+from polypod.environment.obstacles import Obstacle
+from polypod.environment.shapes import BOX, CYLINDER, SPHERE
+from polypod.environment.table import EnvironmentTable, IntArray
+from polypod.environment.terrain import Terrain
+
+KIND_OF_SHAPE = {"box": BOX, "hull": BOX, "sphere": SPHERE, "cylinder": CYLINDER}
+MOST_BUCKETS = 1 << 18
+MOST_LISTED = 1 << 22  # obstacles, summed over the buckets
+
+
+def build_table(terrain: Terrain, obstacles: Sequence[Obstacle]) -> EnvironmentTable:
+    """Return the table of a static environment; obstacle o is row o."""
+    planes = [obstacle.planes() for obstacle in obstacles]
+    outlines = [obstacle.footprint() for obstacle in obstacles]
+    bounds = _bounds(obstacles)
+    plane_table, plane_count = _padded(planes, 4)
+    footprint, footprint_count = _padded(outlines, 2)
+    sides, _ = _padded([polygon_sides(outline) for outline in outlines], 3)
+    place, shape, start, item, spread = _buckets(bounds)
+    heights = terrain.heights
+    # Kernels read two samples along each axis.
+    heights = np.repeat(heights, 2, axis=0) if heights.shape[0] == 1 else heights
+    heights = np.repeat(heights, 2, axis=1) if heights.shape[1] == 1 else heights
+    wet = terrain.water is not None and bool(np.any(terrain.water))
+    return EnvironmentTable(
+        heights=np.ascontiguousarray(heights),
+        terrain_place=np.array([terrain.origin[0], terrain.origin[1], terrain.cell]),
+        terrain_range=np.array([heights.min(), heights.max()]),
+        water=np.array(terrain.water if wet else np.zeros((0, 0)), dtype=np.bool_, order="C"),
+        kind=np.array([KIND_OF_SHAPE[o.shape] for o in obstacles], dtype=np.int64),
+        position=np.array([o.position for o in obstacles], dtype=np.float64).reshape(-1, 3),
+        rotation=np.array([o.rotation for o in obstacles], dtype=np.float64).reshape(-1, 4),
+        half_size=0.5 * np.array([o.size for o in obstacles], dtype=np.float64).reshape(-1, 3),
+        forbidden=np.array([o.forbidden for o in obstacles], dtype=np.bool_),
+        planes=plane_table,
+        plane_count=plane_count,
+        footprint=footprint,
+        footprint_side=sides,
+        footprint_count=footprint_count,
+        bounds=bounds,
+        bucket_place=place,
+        bucket_shape=shape,
+        bucket_start=start,
+        bucket_item=item,
+        bucket_range=spread,
+    )
+
+
+def _padded(arrays: list[FloatArray], width: int) -> tuple[FloatArray, IntArray]:
+    """Return arrays [n, width] of unequal n as one, and their n."""
+    count = np.array([len(array) for array in arrays], dtype=np.int64)
+    table = np.zeros((len(arrays), max(1, int(count.max(initial=0))), width))
+    for i, array in enumerate(arrays):
+        table[i, : len(array)] = array
+    return table, count
+
+
+def _bounds(obstacles: Sequence[Obstacle]) -> FloatArray:
+    """Return least and greatest x, y, z [O, 6]: exact but for cylinders, around which they lie."""
+    bounds = np.zeros((len(obstacles), 6))
+    for o, obstacle in enumerate(obstacles):
+        if obstacle.shape == "sphere":
+            centre, radius = np.array(obstacle.position), 0.5 * obstacle.size[0]
+            bounds[o] = np.concatenate([centre - radius, centre + radius])
+        else:
+            corners = obstacle.corners()
+            bounds[o] = np.concatenate([corners.min(axis=0), corners.max(axis=0)])
+        # A point on the rim belongs to the obstacle whichever way its coordinates were rounded.
+        slack = 1e-9 * (bounds[o, 3:] - bounds[o, :3])
+        bounds[o, :3] -= slack
+        bounds[o, 3:] += slack
+    return bounds
+
+
+def _buckets(bounds: FloatArray) -> tuple[FloatArray, IntArray, IntArray, IntArray, IntArray]:
+    """Return the plan's buckets (place, shape, start, item) and each obstacle's range of them.
+
+    A bucket is about half as wide as the typical obstacle is narrow, so that a point's bucket lists
+    little that does not cover the point.
+    """
+    if len(bounds) == 0:
+        empty = np.zeros(0, np.int64)
+        spread = np.zeros((0, 4), np.int64)
+        return (
+            np.array([0.0, 0.0, 1.0]),
+            np.zeros(2, np.int64),
+            np.zeros(1, np.int64),
+            empty,
+            spread,
+        )
+    least, greatest = bounds[:, [0, 2]], bounds[:, [3, 5]]
+    corner, extent = least.min(axis=0), np.ptp(np.concatenate([least, greatest]), axis=0)
+    side = 0.5 * float(np.median(np.min(greatest - least, axis=1)))
+    side = max(side, math.sqrt(extent[0] * extent[1] / MOST_BUCKETS), float(extent.max()) / 4096.0)
+    while True:
+        spread = np.floor((bounds[:, [2, 0, 5, 3]] - corner[[1, 0, 1, 0]]) / side).astype(np.int64)
+        listed_count = np.sum(np.prod(spread[:, 2:] - spread[:, :2] + 1, axis=1))
+        if listed_count <= MOST_LISTED:
+            break
+        side *= 2.0
+    rows, columns = (spread[:, 2:].max(axis=0) + 1).tolist()
+    lists: list[list[int]] = [[] for _ in range(rows * columns)]
+    for o, (first_row, first_column, last_row, last_column) in enumerate(spread.tolist()):
+        for row in range(first_row, last_row + 1):
+            for column in range(first_column, last_column + 1):
+                lists[row * columns + column].append(o)
+    start = np.zeros(rows * columns + 1, np.int64)
+    start[1:] = np.cumsum([len(listed) for listed in lists])
+    item = np.array([o for listed in lists for o in listed], dtype=np.int64)
+    place = np.array([corner[0], corner[1], side])
+    return place, np.array([rows, columns], dtype=np.int64), start, item, spread

@@ -1,0 +1,227 @@
+"""The ground: a heightmap, bilinear between its samples, that goes on for ever at its edges.
+
+A heightmap cannot hold a vertical face: between two samples it slopes. So the generators with
+risers (`stairs`, `steps`) put exact boxes on the ground: they are obstacles of the terrain's own,
+listed in `parts`, and a foot beside a riser is beside a truly vertical face.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from polypod.environment import generators
+from polypod.environment.obstacles import LARGEST, Obstacle
+from polypod.errors import SceneError
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+
+MOST_SAMPLES = 64_000_000  # 512 MB of heights
+PICTURES = {"L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0, "I": 65535.0}
+
+
+@dataclass(frozen=True, eq=False)
+class Terrain:
+    """Heights in metres at the points of a square lattice.
+
+    `heights` [rows, columns]: columns run along +x, rows along +z; `origin` is x, z of sample
+    [0, 0] and `cell` the metres between samples. `water` [rows, columns] marks samples about which
+    no foot may stand (each stands for the square of one cell around it), or is None. `parts` are
+    solid pieces of the terrain with vertical faces.
+    """
+
+    heights: FloatArray
+    cell: float
+    origin: tuple[float, float] = (0.0, 0.0)
+    water: BoolArray | None = None
+    parts: tuple[Obstacle, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Judge the numbers and make the arrays read-only; raise SceneError."""
+        try:
+            heights = np.array(self.heights, dtype=np.float64, order="C")
+        except (TypeError, ValueError):
+            raise SceneError("a terrain needs heights that are numbers") from None
+        if heights.ndim != 2 or heights.size == 0:
+            raise SceneError(
+                f"a terrain needs heights of shape [rows, columns], not {list(heights.shape)}"
+            )
+        if heights.size > MOST_SAMPLES:
+            raise SceneError(
+                f"a terrain of {heights.shape[0]} x {heights.shape[1]} samples is too large; "
+                f"the most is {MOST_SAMPLES} samples"
+            )
+        if not np.all(np.isfinite(heights)) or np.max(np.abs(heights)) > LARGEST:
+            raise SceneError(
+                f"a terrain has a height that is no number or not within {LARGEST:g} m"
+            )
+        if not (1e-6 <= self.cell <= LARGEST):
+            raise SceneError(
+                f"a terrain has cell = {self.cell:g}; "
+                f"it must be the metres between samples, from 1e-06 to {LARGEST:g}"
+            )
+        if len(self.origin) != 2 or not all(abs(o) <= LARGEST for o in self.origin):
+            raise SceneError(
+                f"a terrain has origin = {list(self.origin)}; "
+                f"it must be x and z of the first sample, within {LARGEST:g} m"
+            )
+        heights.flags.writeable = False
+        object.__setattr__(self, "heights", heights)
+        if self.water is not None:
+            water = np.array(self.water, dtype=np.bool_, order="C")
+            if water.shape != heights.shape:
+                raise SceneError(
+                    f"a water mask of {' x '.join(map(str, water.shape))} samples does not fit a "
+                    f"terrain of {heights.shape[0]} x {heights.shape[1]}: make them equal"
+                )
+            water.flags.writeable = False
+            object.__setattr__(self, "water", water)
+
+    @classmethod
+    def flat(cls, height: float = 0.0) -> Terrain:
+        """Return level ground that goes on for ever."""
+        return cls(np.full((2, 2), height), 1.0)
+
+    @classmethod
+    def from_npy(
+        cls,
+        path: str | Path,
+        cell: float,
+        origin: Sequence[float] = (0.0, 0.0),
+        water: str | Path | None = None,
+    ) -> Terrain:
+        """Return the terrain whose heights in metres are a two-dimensional .npy file."""
+        try:
+            heights = np.load(path, allow_pickle=False)
+        except (OSError, ValueError, EOFError) as error:
+            raise SceneError(f"{path}: no .npy heightmap can be read ({error})") from None
+        if not isinstance(heights, np.ndarray) or heights.dtype.kind not in "fiu":
+            raise SceneError(f"{path}: a heightmap must be an array of real numbers")
+        return _placed(path, heights, cell, origin, water)
+
+    @classmethod
+    def from_png(
+        cls,
+        path: str | Path,
+        cell: float,
+        relief: float,
+        origin: Sequence[float] = (0.0, 0.0),
+        water: str | Path | None = None,
+    ) -> Terrain:
+        """Return the terrain of an 8- or 16-bit grey picture, `relief` metres from black to white.
+
+        The picture's first row is the one of least z.
+        """
+        if not 0.0 <= relief <= LARGEST:
+            raise SceneError(f"{path}: relief = {relief:g} must be metres from 0 to {LARGEST:g}")
+        return _placed(path, _read_grey(path) * relief, cell, origin, water)
+
+    @classmethod
+    def hills(cls, seed: int = 0, **keys: float) -> Terrain:
+        """Return rolling hills: see `generators.hills` for the keys."""
+        return generated("hills", seed=seed, **keys)
+
+    @classmethod
+    def rocks(cls, seed: int = 0, **keys: float) -> Terrain:
+        """Return ground strewn with rounded rocks: see `generators.rocks` for the keys."""
+        return generated("rocks", seed=seed, **keys)
+
+    @classmethod
+    def stairs(cls, **keys: float) -> Terrain:
+        """Return a flight of stairs up, along +z: see `generators.stairs` for the keys."""
+        return generated("stairs", **keys)
+
+    @classmethod
+    def steps(cls, seed: int = 0, **keys: float) -> Terrain:
+        """Return a pavement of blocks of unequal height: see `generators.steps` for the keys."""
+        return generated("steps", seed=seed, **keys)
+
+    @classmethod
+    def slope(cls, angle: float, **keys: float) -> Terrain:
+        """Return an even slope up, along +z, of `angle` radians: see `generators.slope`."""
+        return generated("slope", angle=angle, **keys)
+
+    def height_at(self, x: float, z: float) -> float:
+        """Return the ground's height in metres, without the terrain's parts."""
+        return float(self.heights_at(np.array([[x, z]]))[0])
+
+    def heights_at(self, points: FloatArray) -> FloatArray:
+        """Return the ground's heights [N] at plan points [N, 2] (x, z)."""
+        rows, columns = self.heights.shape
+        u = np.clip((points[:, 0] - self.origin[0]) / self.cell, 0, columns - 1)
+        v = np.clip((points[:, 1] - self.origin[1]) / self.cell, 0, rows - 1)
+        i, j = np.floor(v).astype(np.int64), np.floor(u).astype(np.int64)
+        below, right = np.minimum(i + 1, rows - 1), np.minimum(j + 1, columns - 1)
+        u, v = u - j, v - i
+        first = self.heights[i, j] * (1 - u) + self.heights[i, right] * u
+        second = self.heights[below, j] * (1 - u) + self.heights[below, right] * u
+        return np.asarray(first * (1 - v) + second * v)
+
+    def lowest_in(self, corners: FloatArray) -> float:
+        """Return the lowest ground in a convex polygon [V, 2] (x, z).
+
+        Between samples the ground is straight along x and along z, so its extremes lie at samples
+        and on the outline; the outline is asked at 33 points a side.
+        """
+        share = np.linspace(0.0, 1.0, 33)[:, None]
+        ends = np.roll(corners, -1, axis=0)
+        lines = [a * (1 - share) + b * share for a, b in zip(corners, ends, strict=True)]
+        least, greatest = corners.min(axis=0), corners.max(axis=0)
+        rows, columns = self.heights.shape
+        first = np.ceil((least - self.origin) / self.cell)
+        last = np.floor((greatest - self.origin) / self.cell)
+        j = np.arange(max(first[0], 0), min(last[0], columns - 1) + 1)
+        i = np.arange(max(first[1], 0), min(last[1], rows - 1) + 1)
+        lattice = np.stack(np.meshgrid(j, i), axis=-1).reshape(-1, 2) * self.cell + self.origin
+        along = ends - corners
+        beyond = (lattice[:, None, 0] - corners[:, 0]) * along[:, 1] - (
+            lattice[:, None, 1] - corners[:, 1]
+        ) * along[:, 0]
+        return float(
+            np.min(self.heights_at(np.concatenate([*lines, lattice[np.all(beyond <= 0, axis=1)]])))
+        )
+
+
+def generated(generator: str, **keys: Any) -> Terrain:
+    """Return a generated terrain; raise SceneError for a generator or a key that does not exist."""
+    made = generators.generate(generator, keys)
+    return Terrain(made.heights, made.cell, made.origin, None, made.parts)
+
+
+def _placed(
+    path: str | Path,
+    heights: NDArray[Any],
+    cell: float,
+    origin: Sequence[float],
+    water: str | Path | None,
+) -> Terrain:
+    mask = None if water is None else _read_grey(water) > 0.5
+    try:
+        return Terrain(heights, cell, tuple(float(o) for o in origin), mask)  # type: ignore[arg-type]
+    except SceneError as error:
+        raise SceneError(f"{path}: {error}") from None
+
+
+def _read_grey(path: str | Path) -> FloatArray:
+    """Return a grey picture's values [rows, columns] from 0 (black) to 1 (white)."""
+    try:
+        with Image.open(path) as picture:
+            if picture.size[0] * picture.size[1] > MOST_SAMPLES:
+                raise SceneError(f"{path}: a picture of more than {MOST_SAMPLES} pixels")
+            if picture.mode == "1":
+                return np.asarray(picture, dtype=np.float64)
+            if picture.mode not in PICTURES:
+                raise SceneError(
+                    f"{path}: the picture's mode is {picture.mode}; it must be grey, 8 or 16 bits"
+                )
+            white = PICTURES[picture.mode]
+            return np.asarray(picture, dtype=np.float64) / white
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        raise SceneError(f"{path}: no picture can be read ({error})") from None
