@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 from polypod.compute import kernel
 from polypod.gait.pattern import SAME_MOMENT, BoolArray, FloatArray
-from polypod.math.intervals import phase_between, wrap_phase
+from polypod.math.intervals import wrap_phase
 
 # Real switches of gait take one to two strides.
 TRANSITION_CYCLES = 1.5
+ALIGNMENTS = 64
 
 
 class Disk(NamedTuple):
@@ -42,12 +43,13 @@ def start_shift(start: float, destination_start: float, destination_extent: floa
     """Return the signed way of a sector's start to its destination's start, in (-1, 1).
 
     P1 3.3: in the direction that does not pass the destination's finish. A start within the
-    destination's sector goes back to that sector's start, any other goes forward to it.
+    destination's sector goes back to that sector's start, any other goes forward to it; one that
+    lies on the finish passes it in neither direction and takes the shorter.
     """
     beyond = wrap_phase(start - destination_start)
-    if beyond == 0.0:
-        return 0.0
-    return -beyond if beyond <= destination_extent else 1.0 - beyond
+    if abs(beyond - destination_extent) <= SAME_MOMENT:
+        return -beyond if beyond <= 0.5 else 1.0 - beyond
+    return -beyond if beyond < destination_extent else 1.0 - beyond
 
 
 @kernel
@@ -99,35 +101,74 @@ def approach_disks(
 
 @kernel
 def adopt_disks(
-    needle: float,
     start: FloatArray,
     extent: FloatArray,
     goal_start: FloatArray,
     goal_extent: FloatArray,
     in_swing: BoolArray,
 ) -> int:
-    """Give each standing foot its goal disk; return how many feet still go by another.
+    """Give each standing foot its goal disk; return how many feet swing by another.
 
-    A foot within whose new sector the needle is waits, or it would jump into the middle of a swing:
-    it lifts by `needle.next_foot_to_lift` or takes the disk when the needle has left the sector.
+    A foot within whose new sector the needle is does not jump into the middle of a swing: it begins
+    one late, by the rules of `needle.next_foot_to_lift`, or waits for the next.
 
     Args:
-        needle: the needle now.
         start: [K] sectors' starts the feet go by; written.
         extent: [K] sectors' extents the feet go by; written.
         goal_start: [K] starts of the goal disks.
         goal_extent: [K] extents of the goal disks.
         in_swing: [K] feet in the air.
     """
-    waiting = 0
+    swinging_by_another = 0
     for k in range(start.shape[0]):
-        outside = wrap_phase(needle - goal_start[k]) >= goal_extent[k]
-        if outside and not in_swing[k]:
+        if not in_swing[k]:
             start[k] = goal_start[k]
             extent[k] = goal_extent[k]
-        elif (
-            abs(phase_between(start[k], goal_start[k])) > SAME_MOMENT
-            or abs(extent[k] - goal_extent[k]) > SAME_MOMENT
-        ):
-            waiting += 1
-    return waiting
+        elif start[k] != goal_start[k] or extent[k] != goal_extent[k]:
+            swinging_by_another += 1
+    return swinging_by_another
+
+
+@kernel
+def align_cycle(
+    needle: float,
+    start: FloatArray,
+    goal_start: FloatArray,
+    lift_phase: FloatArray,
+    destination_start: FloatArray,
+    destination_extent: FloatArray,
+) -> float:
+    """Turn a creature's whole circle to where the destination is near; return the needle's place.
+
+    Phases mean nothing but relative to the needle, so turning needle and disks together changes no
+    step. It is done once, when another gait is asked for, lest all feet travel far round the circle
+    only because two tables count from different moments. A start that goes forward makes a long
+    stance, one that goes back a short one, which a leg bears more easily and counts half.
+
+    Args:
+        needle: the needle now.
+        start: [K] starts of the sectors the feet go by; written.
+        goal_start: [K] starts of the goal disks; written.
+        lift_phase: [K] phases at which swings began; written.
+        destination_start: [K] starts of the gait to reach.
+        destination_extent: [K] extents of the gait to reach.
+    """
+    best_cost = float(goal_start.shape[0])
+    best_turn = 0.0
+    for i in range(ALIGNMENTS):
+        turn = i / ALIGNMENTS
+        cost = 0.0
+        for k in range(goal_start.shape[0]):
+            shift = start_shift(
+                wrap_phase(goal_start[k] + turn), destination_start[k], destination_extent[k]
+            )
+            cost = max(cost, shift, -0.5 * shift)
+        # Strictly better only: gaits that agree already stay as they are.
+        if cost < best_cost - SAME_MOMENT:
+            best_cost = cost
+            best_turn = turn
+    for k in range(goal_start.shape[0]):
+        start[k] = wrap_phase(start[k] + best_turn)
+        goal_start[k] = wrap_phase(goal_start[k] + best_turn)
+        lift_phase[k] = wrap_phase(lift_phase[k] + best_turn)
+    return wrap_phase(needle + best_turn)
