@@ -12,17 +12,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from polypod.environment.table import BoolArray, FloatArray, IntArray
+from polypod.compute import kernel
+from polypod.environment.elevation import fill_terrain, fill_water
+from polypod.environment.grown import SIDE_COLUMNS, fill_obstacles
+from polypod.environment.table import BoolArray, EnvironmentTable, FloatArray, IntArray
 
-# What a cell holds, the colours of P1 Figure 11.
-KIND_GROUND = 0
-KIND_GROWN = 1  # only the growth by the foot reaches it
-KIND_EDGE = 2
-KIND_CORNER = 3
-KIND_INSIDE = 4
-KIND_FORBIDDEN = 5
-
-MOST_SIDES = 64  # of a footprint
+MOST_SIDES = 96  # of a footprint, and planes of a hull: it has at most 48 points
+# The chamfer counts in whole numbers, which is three times as fast: a step, and a diagonal one.
+STEP, DIAGONAL = 5, 7
 
 
 class LocalMap(NamedTuple):
@@ -38,11 +35,14 @@ class LocalMap(NamedTuple):
     forbidden: BoolArray  # [N, N] feet neither stand here nor pass over
     wet: BoolArray  # [N, N] water: feet do not stand here, but may pass over
     edge_distance: FloatArray  # [N, N] cells to the nearest edge or forbidden cell; 0 on it
-    kind: IntArray  # [N, N] KIND_...: for display
+    kind: IntArray  # [N, N] KIND_... of `grown`: for display
     column: IntArray  # [N + 1] scratch
     fraction: FloatArray  # [N + 1] scratch
     line: FloatArray  # [2, N] scratch
-    sides: FloatArray  # [MOST_SIDES + 8, 4] scratch
+    jump: FloatArray  # [N, N] scratch: the difference of heights that makes a cell an edge
+    sides: FloatArray  # [MOST_SIDES + 8, SIDE_COLUMNS] scratch
+    tops: FloatArray  # [MOST_SIDES, 4] scratch
+    steps: IntArray  # [N + 2, N + 2] scratch
 
 
 def make_local_map(n: int) -> LocalMap:
@@ -59,5 +59,85 @@ def make_local_map(n: int) -> LocalMap:
         column=np.zeros(n + 1, np.int64),
         fraction=np.zeros(n + 1),
         line=np.zeros((2, n)),
-        sides=np.zeros((MOST_SIDES + 8, 4)),
+        jump=np.zeros((n, n)),
+        sides=np.zeros((MOST_SIDES + 8, SIDE_COLUMNS)),
+        tops=np.zeros((MOST_SIDES, 4)),
+        steps=np.zeros((n + 2, n + 2), np.int64),
     )
+
+
+@kernel
+def fill_maps(
+    env: EnvironmentTable,
+    window: LocalMap,
+    centre_x: float,
+    centre_z: float,
+    cell: float,
+    n: int,
+    foot_half_x: float,
+    foot_half_z: float,
+    foot_yaw: float,
+) -> None:
+    """Fill the maps of n x n cells around a place, for one foot's shape and orientation.
+
+    Args:
+        env: the world.
+        window: where to write; made for at least n cells a side.
+        centre_x: world x of the window's centre, metres.
+        centre_z: world z of the window's centre, metres.
+        cell: side of a cell, metres.
+        n: cells along each side.
+        foot_half_x: half extent of the foot's rectangle along its own x, metres; 0 for a point.
+        foot_half_z: half extent along its own z, metres.
+        foot_yaw: turn of the rectangle about +Y from +Z toward +X, radians.
+    """
+    window.place[0] = centre_x - 0.5 * n * cell
+    window.place[1] = centre_z - 0.5 * n * cell
+    window.place[2] = cell
+    window.size[0] = n
+    fill_terrain(env, window)
+    if env.water.shape[0] > 0:
+        fill_water(env, window, foot_half_x, foot_half_z, foot_yaw)
+    if env.bucket_shape[0] > 0:
+        fill_obstacles(env, window, foot_half_x, foot_half_z, foot_yaw)
+    _fill_edge_distance(window)
+
+
+@kernel
+def _fill_edge_distance(window: LocalMap) -> None:
+    """Set each cell's distance to the nearest edge, in cells: two sweeps of a chamfer.
+
+    A cell is an edge where its heights differ by more than its jump, or where no foot may stand.
+    Without any edge all distances are n.
+    """
+    n = window.size[0]
+    steps = window.steps  # cell [i, j] is steps[i + 1, j + 1]; the rim around saves asking
+    far = STEP * n
+    found = False
+    for i in range(n + 2):
+        steps[i, 0] = far
+        steps[i, n + 1] = far
+        steps[0, i] = far
+        steps[n + 1, i] = far
+    for i in range(n):
+        for j in range(n):
+            rise = window.highest[i, j] - window.lowest[i, j]
+            edge = rise > window.jump[i, j] or window.forbidden[i, j] or window.wet[i, j]
+            steps[i + 1, j + 1] = 0 if edge else far
+            window.edge_distance[i, j] = n
+            found = found or edge
+    if not found:
+        return
+    for i in range(1, n + 1):
+        for j in range(1, n + 1):
+            above = min(steps[i - 1, j - 1], steps[i - 1, j + 1]) + DIAGONAL
+            steps[i, j] = min(steps[i, j], min(above, steps[i - 1, j] + STEP))
+        for j in range(1, n + 1):
+            steps[i, j] = min(steps[i, j], steps[i, j - 1] + STEP)
+    for i in range(n, 0, -1):
+        for j in range(1, n + 1):
+            below = min(steps[i + 1, j - 1], steps[i + 1, j + 1]) + DIAGONAL
+            steps[i, j] = min(steps[i, j], min(below, steps[i + 1, j] + STEP))
+        for j in range(n, 0, -1):
+            steps[i, j] = min(steps[i, j], steps[i, j + 1] + STEP)
+            window.edge_distance[i - 1, j - 1] = steps[i, j] * (1.0 / STEP)

@@ -15,6 +15,7 @@ from polypod.math.vec3 import Vec3, mix
 
 # Deeper than this counts as touching, in half sizes of the obstacle: standing on it does not.
 TOUCH = 1e-6
+SHORTEST_STRETCH = 1e-9  # of a segment: the walk over sample lines always gets on
 
 
 @kernel
@@ -50,7 +51,7 @@ def segment_clear(env: EnvironmentTable, start_world: Vec3, end_world: Vec3, rad
 def _touches(
     env: EnvironmentTable, o: int, start_world: Vec3, end_world: Vec3, radius: float
 ) -> bool:
-    """Say whether the moving disc enters obstacle `o`, or passes over it where that is forbidden."""
+    """Say whether the moving disc enters obstacle `o`, or is over it where that is forbidden."""
     if env.kind[o] == SPHERE and not env.forbidden[o]:
         return _enters_sphere(env, o, start_world, end_world, radius)
     slack = TOUCH * max(env.half_size[o, 0], env.half_size[o, 1], env.half_size[o, 2])
@@ -148,6 +149,7 @@ def _above_ground(env: EnvironmentTable, start_world: Vec3, end_world: Vec3) -> 
         return False
     while now < 1.0:
         then = min(_next_line(u, move_u, now, columns), _next_line(v, move_v, now, rows))
+        then = max(then, now + SHORTEST_STRETCH)
         middle_world = mix(start_world, end_world, 0.5 * (now + then))
         then_world = mix(start_world, end_world, then)
         gap_middle = middle_world.y - ground_height(env, middle_world.x, middle_world.z)

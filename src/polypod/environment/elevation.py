@@ -1,0 +1,126 @@
+"""The terrain's part of the maps: least and greatest height in each cell, exactly; water.
+
+Between samples the ground is straight along x and along z, so over a cell it is extreme where the
+cell's sides and the sample lines cross each other or themselves, and nowhere else.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from polypod.compute import kernel
+from polypod.environment.table import EnvironmentTable
+
+if TYPE_CHECKING:
+    from polypod.environment.maps import LocalMap
+
+# Bare terrain is an edge where it differs by more than this many cells within one: an even slope is
+# none up to about 45 degrees.
+TERRAIN_JUMP = 1.5
+
+
+@kernel
+def fill_terrain(env: EnvironmentTable, window: LocalMap) -> None:
+    """Set highest and lowest from the terrain alone, and clear what later phases mark."""
+    n = window.size[0]
+    cell = window.place[2]
+    level = env.terrain_range[0] == env.terrain_range[1]
+    for i in range(n):
+        for j in range(n):
+            window.highest[i, j] = env.terrain_range[1] if level else -math.inf
+            window.lowest[i, j] = env.terrain_range[0] if level else math.inf
+            window.forbidden[i, j] = False
+            window.wet[i, j] = False
+            window.kind[i, j] = 0
+            window.jump[i, j] = TERRAIN_JUMP * cell
+    if level:
+        return
+    rows, columns = env.heights.shape
+    for j in range(n + 1):
+        u = (window.place[0] + j * cell - env.terrain_place[0]) / env.terrain_place[2]
+        u = min(max(u, 0.0), columns - 1.0)
+        window.column[j] = min(int(u), columns - 2)
+        window.fraction[j] = u - window.column[j]
+    last_row = 0
+    for i in range(n + 1):
+        v = (window.place[1] + i * cell - env.terrain_place[1]) / env.terrain_place[2]
+        v = min(max(v, 0.0), rows - 1.0)
+        row = min(int(v), rows - 2)
+        # Sample rows inside the map's row that has just ended, then the line between two map rows.
+        if i > 0:
+            for inner in range(last_row + 1, row + 1):
+                _scan_line(env, window, inner, 0.0)
+                _take_line(window, i - 1)
+        last_row = row
+        _scan_line(env, window, row, v - row)
+        if i > 0:
+            _take_line(window, i - 1)
+        if i < n:
+            _take_line(window, i)
+
+
+@kernel
+def _scan_line(env: EnvironmentTable, window: LocalMap, row: int, fraction: float) -> None:
+    """Set for each map column the ground's extremes along a line of constant z."""
+    here = 1.0 - fraction
+    column = window.column[0]
+    near = env.heights[row, column] * here + env.heights[row + 1, column] * fraction
+    far = env.heights[row, column + 1] * here + env.heights[row + 1, column + 1] * fraction
+    height = near + (far - near) * window.fraction[0]
+    for j in range(window.size[0]):
+        greatest = height
+        least = height
+        while column < window.column[j + 1]:
+            # The sample line between this patch and the next.
+            greatest = max(greatest, far)
+            least = min(least, far)
+            column += 1
+            near = far
+            far = env.heights[row, column + 1] * here + env.heights[row + 1, column + 1] * fraction
+        height = near + (far - near) * window.fraction[j + 1]
+        window.line[0, j] = max(greatest, height)
+        window.line[1, j] = min(least, height)
+
+
+@kernel
+def _take_line(window: LocalMap, i: int) -> None:
+    """Widen the extremes of map row `i` by those of the scanned line."""
+    for j in range(window.size[0]):
+        window.highest[i, j] = max(window.highest[i, j], window.line[0, j])
+        window.lowest[i, j] = min(window.lowest[i, j], window.line[1, j])
+
+
+@kernel
+def fill_water(
+    env: EnvironmentTable,
+    window: LocalMap,
+    foot_half_x: float,
+    foot_half_z: float,
+    foot_yaw: float,
+) -> None:
+    """Mark the cells in which the box around some foot overlaps water."""
+    n = window.size[0]
+    rows, columns = env.water.shape
+    sample = env.terrain_place[2]
+    cosine = abs(math.cos(foot_yaw))
+    sine = abs(math.sin(foot_yaw))
+    reach_x = foot_half_x * cosine + foot_half_z * sine
+    reach_z = foot_half_x * sine + foot_half_z * cosine
+    for i in range(n):
+        z = window.place[1] + i * window.place[2] - env.terrain_place[1]
+        top = _nearest_sample((z - reach_z) / sample, rows)
+        bottom = _nearest_sample((z + window.place[2] + reach_z) / sample, rows)
+        for j in range(n):
+            x = window.place[0] + j * window.place[2] - env.terrain_place[0]
+            left = _nearest_sample((x - reach_x) / sample, columns)
+            right = _nearest_sample((x + window.place[2] + reach_x) / sample, columns)
+            for row in range(top, bottom + 1):
+                for column in range(left, right + 1):
+                    if env.water[row, column]:
+                        window.wet[i, j] = True
+
+
+@kernel
+def _nearest_sample(place: float, count: int) -> int:
+    return int(min(max(math.floor(place + 0.5), 0.0), count - 1.0))
