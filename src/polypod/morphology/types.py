@@ -32,7 +32,9 @@ class LegTable(NamedTuple):
     joint_count: IntArray  # [K] joints turned by inverse kinematics
     joint: IntArray  # [K, M] row in the joint table, -1 beyond joint_count
     foot_joint: IntArray  # [K] row in the joint table of the oriented foot, -1 where there is none
-    point_rest: FloatArray  # [K, M + 1, 3] body frame, m: the pivots, then (at joint_count) effector
+    point_rest: (
+        FloatArray  # [K, M + 1, 3] body frame, m: the pivots, then (at joint_count) effector
+    )
     sole_rest: FloatArray  # [K, 3] body frame, m
     sole_stance: FloatArray  # [K, 3] body frame, m: where the sole is when the creature stands
     length: FloatArray  # [K] m, hip to sole along the chain
