@@ -98,4 +98,5 @@ class Settings:
         return SettingValues(*(float(value) for value in dataclasses.astuple(self)))
 
 
-SettingValues = namedtuple("SettingValues", [field.name for field in dataclasses.fields(Settings)])  # noqa: PYI024
+_names = [field.name for field in dataclasses.fields(Settings)]
+SettingValues: Any = namedtuple("SettingValues", _names)  # type: ignore[misc]

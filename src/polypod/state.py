@@ -30,10 +30,10 @@ class HerdTables(NamedTuple):
     ik: Any  # polypod.ik.table.IkTable
     body: BodyTable
     joints: JointTable
-    foot_reach: FloatArray  # [K] m, longest horizontal way of a stance foot
     leg_length: float  # mean over legs, m: the unit of all tolerances
     hip_height: float  # mean height of the hips above the soles in stance, m
     pendulum_time: float  # sqrt(leg length / g), s
+    upright: bool  # most legs stand below their hips
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
 
 
@@ -51,11 +51,16 @@ class HerdState(NamedTuple):
     cycle_rate: FloatArray  # [C] cycles a second
     swing_start: FloatArray  # [C, K] disks in use
     swing_extent: FloatArray  # [C, K]
-    blend_start: FloatArray  # [C, K] disks on their way to the destination gait
-    blend_extent: FloatArray  # [C, K]
-    stance: BoolArray  # [C, K]
-    swing_from: FloatArray  # [C, K] share of the swing sector already gone at lift-off
-    swing_progress: FloatArray  # [C, K] along the planned path, 0 at lift-off, 1 at touchdown
+    goal_start: FloatArray  # [C, K] disks on their way to the destination gait
+    goal_extent: FloatArray  # [C, K]
+    duty: FloatArray  # [C] mean duty factor of the destination gait, following speed
+    blend_left: FloatArray  # [C] cycles left of a transition between gaits
+    gait_number: IntArray  # [C] of the command's gait that the transition is to
+    least_down: IntArray  # [C] fewest feet that must stand at any moment
+    swinging: BoolArray  # [C, K] the foot is off the ground
+    stood: FloatArray  # [C, K] cycles since it landed
+    lift_phase: FloatArray  # [C, K] needle at lift-off, or at the last new plan
+    swing_progress: FloatArray  # [C, K] of the time from there to touchdown, 0 to 1
     waiting: FloatArray  # [C, K] s since a foot wished to lift and found no place
     foot: FloatArray  # [C, K, 3] the sole as planned
     foot_start: FloatArray  # [C, K, 3] the sole at lift-off
@@ -88,10 +93,11 @@ class HerdCommand(NamedTuple):
     body_height: FloatArray  # [C] m above the feet's plane
     spacing: FloatArray  # [C, K, 2] body x, z: wished shift of each foot's rest place, m
     period: FloatArray  # [C] s a cycle, NaN: from speed and morphology
-    gait_start: FloatArray  # [C, K] the destination gait's disks
-    gait_extent: FloatArray  # [C, K]
-    gait_duty: FloatArray  # [C, 2] lowest and highest duty factor of that gait
-    gait_minimum: IntArray  # [C] fewest feet down at any phase of that gait
+    gait_touchdown: FloatArray  # [C, K] the destination gait: phase of each foot's touchdown
+    gait_share: FloatArray  # [C, K] each foot's duty over the mean duty
+    gait_lag: FloatArray  # [C, K] shift of the touchdown per unit of mean duty
+    gait_duty: FloatArray  # [C, 3] mean duty at which it was stated, lowest, highest
+    gait_number: IntArray  # [C] counts the changes of gait
     blend_cycles: FloatArray  # [C] cycles in which a transition takes place
     waypoints: FloatArray  # [C, W, 2] x, z
     waypoint_count: IntArray  # [C]
@@ -113,13 +119,26 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
     """Return the state of a herd, all zero."""
     c, k, j = count, feet, joints
     scalar = dict.fromkeys(
-        ("heading", "turn_rate", "speed", "waypoint", "travelled", "needle", "cycle_rate", "held"),
+        (
+            "heading",
+            "turn_rate",
+            "speed",
+            "waypoint",
+            "travelled",
+            "needle",
+            "cycle_rate",
+            "held",
+            "duty",
+            "blend_left",
+            "gait_number",
+            "least_down",
+        ),
         (c,),
     )
     per_foot = dict.fromkeys(
         (
-            *("swing_start", "swing_extent", "blend_start", "blend_extent", "stance"),
-            *("swing_from", "swing_progress", "waiting", "foot_support", "path_launch", "residual"),
+            *("swing_start", "swing_extent", "goal_start", "goal_extent", "swinging", "stood"),
+            *("lift_phase", "swing_progress", "waiting", "foot_support", "path_launch", "residual"),
         ),
         (c, k),
     )
@@ -148,7 +167,6 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         turn[..., 3] = 1.0
     state.foot_rotation_start[..., 3] = 1.0
     state.foot_rotation_target[..., 3] = 1.0
-    state.stance[:] = True
     state.foot_support[:] = -1
     return state
 
@@ -158,11 +176,10 @@ def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
     c, k = count, feet
     shapes: dict[str, tuple[int, ...]] = {
         **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
-        **dict.fromkeys(("period", "gait_minimum", "blend_cycles", "waypoint_count"), (c,)),
+        **dict.fromkeys(("period", "blend_cycles", "waypoint_count", "gait_number"), (c,)),
         "spacing": (c, k, 2),
-        "gait_start": (c, k),
-        "gait_extent": (c, k),
-        "gait_duty": (c, 2),
+        **dict.fromkeys(("gait_touchdown", "gait_share", "gait_lag"), (c, k)),
+        "gait_duty": (c, 3),
         "waypoints": (c, max(waypoints, 1), 2),
     }
     command: HerdCommand = _allocate(HerdCommand, shapes)

@@ -75,8 +75,8 @@ def least_height(
 ) -> float:
     """Return the least height of the body centre over what lies under the trunk, metres, world.
 
-    The larger of P1's rule (the hull at the centre, plus the thickness) and of what keeps the belly,
-    inclined by `slope_forward`, above each sample. `ahead` metres of ground in front of the trunk
+    The larger of P1's rule (the hull at the centre, plus the thickness) and of what keeps the
+    belly, inclined by `slope_forward`, above each sample. `ahead` metres of ground in front of the trunk
     count too, so that the body has risen when a crate comes under it.
     """
     body = tables.body
@@ -84,7 +84,7 @@ def least_height(
     half_x = body.half_size[0]
     sine = math.sin(state.heading[c])
     cosine = math.cos(state.heading[c])
-    feet = state.stance.shape[1]
+    feet = state.swinging.shape[1]
     least = -math.inf
     for i in range(SLICES):
         left = body.box_centre[0] + half_x * (2.0 * i / (SLICES - 1) - 1.0)

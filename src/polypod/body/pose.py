@@ -10,9 +10,10 @@ from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane
 from polypod.compute import kernel
-from polypod.controller.steering import GRAVITY, PlanPose
+from polypod.controller.steering import PlanPose
+from polypod.gait.tempo import GRAVITY
 from polypod.math.quat import Quat, load_quat, rotate
-from polypod.math.vec3 import Vec3, load_vec3
+from polypod.math.vec3 import load_vec3
 
 # P1's sinusoid is never larger than this, hip heights.
 LARGEST_BOB = 0.02
@@ -29,7 +30,7 @@ def bob(c: int, state: Any, tables: Any, settings: Any) -> float:
     rate = state.cycle_rate[c]
     if rate <= 0.0:
         return 0.0
-    count = state.stance.shape[1]
+    count = state.swinging.shape[1]
     first_cosine = 0.0
     first_sine = 0.0
     second_cosine = 0.0
@@ -54,7 +55,7 @@ def bob(c: int, state: Any, tables: Any, settings: Any) -> float:
 def highest(c: int, state: Any, tables: Any, pose: PlanPose, turn: Quat) -> float:
     """Return the greatest height at which all feet, also those about to land, are in comfort."""
     best = math.inf
-    for k in range(state.stance.shape[1]):
+    for k in range(state.swinging.shape[1]):
         place = load_vec3(state.foot_target[c, k])
         ankle = effector_world(k, tables, place, load_quat(state.foot_rotation_target[c, k]))
         hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
@@ -67,7 +68,9 @@ def highest(c: int, state: Any, tables: Any, pose: PlanPose, turn: Quat) -> floa
 
 
 @kernel
-def update_tilt(c: int, dt: float, plane: FeetPlane, state: Any, tables: Any, settings: Any) -> None:
+def update_tilt(
+    c: int, dt: float, plane: FeetPlane, state: Any, tables: Any, settings: Any
+) -> None:
     """Let pitch and roll follow the slopes of the feet's plane."""
     state.slope[c, 0] = plane.slope_forward
     state.slope[c, 1] = plane.slope_left

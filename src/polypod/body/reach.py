@@ -46,8 +46,8 @@ def body_within_reach(c: int, state: Any, tables: Any, position: Vec3, turn: Qua
     tolerance = TOLERANCE * tables.leg_length
     for _ in range(PASSES):
         worst = 0.0
-        for k in range(state.stance.shape[1]):
-            if state.stance[c, k]:
+        for k in range(state.swinging.shape[1]):
+            if not state.swinging[c, k]:
                 sole = load_vec3(state.foot[c, k])
                 foot_turn = load_quat(state.foot_rotation[c, k])
                 shift = foot_shift(k, tables, sole, foot_turn, position, turn)

@@ -37,7 +37,7 @@ def smooth_step(share: float) -> float:
 @kernel
 def foot_on_its_way(c: int, k: int, state: Any) -> Vec3:
     """Return where a foot counts as being for the body: between its old place and its next."""
-    if state.stance[c, k]:
+    if not state.swinging[c, k]:
         return load_vec3(state.foot[c, k])
     share = smooth_step(state.swing_progress[c, k])
     return mix(load_vec3(state.foot_start[c, k]), load_vec3(state.foot_target[c, k]), share)
@@ -46,7 +46,7 @@ def foot_on_its_way(c: int, k: int, state: Any) -> Vec3:
 @kernel
 def feet_plane(c: int, state: Any, tables: Any) -> FeetPlane:
     """Return the least-squares plane through the feet, leaning to level ground."""
-    count = state.stance.shape[1]
+    count = state.swinging.shape[1]
     sine = math.sin(state.heading[c])
     cosine = math.cos(state.heading[c])
     mean_z = 0.0

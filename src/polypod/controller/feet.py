@@ -16,6 +16,7 @@ from polypod.ik.foot import foot_rotation
 from polypod.math.quat import rotate, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
 
+
 @kernel
 def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
     """Return the rest place of a sole, spacing included; body frame, m."""
@@ -48,7 +49,7 @@ def body_height_at(c: int, x: float, z: float, state: Any) -> float:
     rise: float = state.slope[c, 0] * (dx * sine + dz * cosine) + state.slope[c, 1] * (
         dx * cosine - dz * sine
     )
-    return state.position[c, 1] + rise  # type: ignore[no-any-return]
+    return state.position[c, 1] + rise
 
 
 @kernel
@@ -68,12 +69,12 @@ def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int
     """
     count = 0
     legs = tables.legs
-    for other in range(state.stance.shape[1]):
+    for other in range(state.swinging.shape[1]):
         gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
         if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
             continue
         sole = foot_on_its_way(c, other, state)
-        if not state.stance[c, other]:
+        if state.swinging[c, other]:
             sole = load_vec3(state.foot_target[c, other])
         knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
         moved = sole - load_vec3(state.foot_reached[c, other])
@@ -87,6 +88,14 @@ def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int
 
 
 @kernel
+def stance_seconds(c: int, k: int, state: Any) -> float:
+    """Return how long a foot will stand once it has landed; 0 where nobody walks."""
+    if state.cycle_rate[c] <= 0.0:
+        return 0.0
+    return float((1.0 - state.goal_extent[c, k]) / state.cycle_rate[c])
+
+
+@kernel
 def preferred_footprint(
     c: int, k: int, pose: PlanPose, touchdown: float,
     state: Any, command: Any, tables: Any, settings: Any,
@@ -96,7 +105,7 @@ def preferred_footprint(
     The rest place carried by the body as predicted for the middle of the coming stance: that is
     the pose at touchdown plus half of the stance's travel along the predicted arc.
     """
-    stance = (1.0 - state.swing_extent[c, k]) / max(state.cycle_rate[c], 1e-6)
+    stance = stance_seconds(c, k, state)
     middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
     offset = rest_offset(c, k, middle.heading, state, tables, settings)
     return Vec3(middle.x + offset.x, state.foot[c, k, 1], middle.z + offset.z)
@@ -106,7 +115,8 @@ def preferred_footprint(
 def plan_foot(
     c: int, k: int, pose: PlanPose, preferred: Vec3, touchdown: float, velocity: Vec3,
     radius: float,
-    state: Any, command: Any, tables: Any, settings: Any, env: Any, plan_settings: Any, scratch: Any,
+    state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
 ) -> bool:  # fmt: skip
     """Plan a foot's way from where it is to the best place near `preferred`.
 
@@ -114,13 +124,16 @@ def plan_foot(
     Returns False where no valid pair of footprint and path was found; the state is then untouched.
     """
     legs = tables.legs
-    stance = (1.0 - state.swing_extent[c, k]) / max(state.cycle_rate[c], 1e-6)
+    stance = stance_seconds(c, k, state)
     landing = predict(pose, touchdown, c, command, tables, settings)
     middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
     leaving = predict(pose, touchdown + stance, c, command, tables, settings)
     start = load_vec3(state.foot[c, k])
     turn = foot_rotation(
-        middle.heading, surface_normal(env, preferred.x, preferred.z), settings.foot_align, settings.foot_tilt
+        middle.heading,
+        surface_normal(env, preferred.x, preferred.z),
+        settings.foot_align,
+        settings.foot_tilt,
     )
     hip = hip_at(c, k, landing, state, tables)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
@@ -153,7 +166,10 @@ def plan_foot(
         return False
     target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
     turn = foot_rotation(
-        middle.heading, surface_normal(env, target.x, target.z), settings.foot_align, settings.foot_tilt
+        middle.heading,
+        surface_normal(env, target.x, target.z),
+        settings.foot_align,
+        settings.foot_tilt,
     )
     store_vec3(state.foot_preferred[c, k], preferred)
     store_vec3(state.foot_target[c, k], target)

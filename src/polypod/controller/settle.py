@@ -27,9 +27,9 @@ def feet_fit(
     each one's progress to the scratch; the feet themselves are not moved.
     """
     tolerance = TOLERANCE * tables.leg_length
-    for k in range(state.stance.shape[1]):
+    for k in range(state.swinging.shape[1]):
         scratch.progress[k] = 0.0
-        if not state.stance[c, k]:
+        if state.swinging[c, k]:
             progress = wished_progress(c, k, dt, state)
             sole, foot_turn = foot_along(c, k, progress, state)
             if length(foot_shift(k, tables, sole, foot_turn, position, turn)) <= tolerance:
@@ -66,20 +66,23 @@ def settle_body(
             state.held[c] = share
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
-            state.heading[c] = wrapped(heading_before + share * wrapped(pose.heading - heading_before))
+            state.heading[c] = wrapped(
+                heading_before + share * wrapped(pose.heading - heading_before)
+            )
             break
 
 
 @kernel
 def advance_swings(c: int, state: Any, scratch: Any, env: Any) -> None:
     """Carry the swinging feet as far as `settle_body` found, and land those that arrived."""
-    for k in range(state.stance.shape[1]):
-        if state.stance[c, k]:
+    for k in range(state.swinging.shape[1]):
+        if not state.swinging[c, k]:
             continue
         state.swing_progress[c, k] = scratch.progress[k]
         sole, turn = foot_along(c, k, scratch.progress[k], state)
         store_foot(c, k, sole, turn, state)
         if scratch.progress[k] >= 1.0:
-            state.stance[c, k] = True
+            state.swinging[c, k] = False
+            state.stood[c, k] = 0.0
             _, support = surface(env, sole.x, sole.z)
             state.foot_support[c, k] = support

@@ -82,7 +82,9 @@ def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: 
     response = settings.turn_response * pendulum
     limit = settings.turn_rate / pendulum
     rate_asked = min(limit, max(-limit, error / response))
-    turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (1.0 - math.exp(-4.0 * dt / response))
+    turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (
+        1.0 - math.exp(-4.0 * dt / response)
+    )
     change = acceleration * dt
     speed = pose.speed + min(change, max(-2.0 * change, speed_asked - pose.speed))
     heading = wrapped(pose.heading + turn_rate * dt)
@@ -131,7 +133,7 @@ def feedback(c: int, state: Any, tables: Any, settings: Any) -> tuple[float, flo
     The mean offset of the chosen footprints from the preferred ones, discarded while it is small
     for this morphology, made up at a share of it a gait cycle.
     """
-    count = state.stance.shape[1]
+    count = state.swinging.shape[1]
     x = 0.0
     z = 0.0
     for k in range(count):
@@ -146,9 +148,7 @@ def feedback(c: int, state: Any, tables: Any, settings: Any) -> tuple[float, flo
 
 
 @kernel
-def move_body(
-    c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any
-) -> PlanPose:
+def move_body(c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any) -> PlanPose:
     """Return the pose on the plane at the end of the frame: steered, and refined by the feet."""
     pose = steer(plan_pose(c, state), c, command, tables, settings, dt)
     x, z = feedback(c, state, tables, settings)

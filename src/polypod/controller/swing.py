@@ -8,7 +8,12 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.feet import plan_foot, preferred_footprint, rest_offset
 from polypod.controller.steering import PlanPose
-from polypod.gait.needle import swing_progress
+from polypod.gait.needle import (
+    lift_phase,
+    next_foot_to_lift,
+    progress_since_lift,
+    swing_progress,
+)
 from polypod.math.quat import Quat, load_quat, slerp
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, store_vec3
 from polypod.paths.curve import PROFILE_BELL, path_point, path_row, path_velocity
@@ -23,11 +28,11 @@ STILL = 1e-3
 
 
 @kernel
-def is_moving(c: int, state: Any, command: Any, tables: Any) -> bool:
-    """Return whether the body moves or turns over the ground, or is about to."""
+def is_moving(c: int, state: Any, tables: Any) -> bool:
+    """Return whether the body moves or turns over the ground."""
     still = STILL * tables.leg_length / tables.pendulum_time
     turning = abs(state.turn_rate[c]) * tables.leg_length
-    return abs(state.speed[c]) > still or turning > still  # type: ignore[no-any-return]
+    return abs(state.speed[c]) > still or turning > still
 
 
 @kernel
@@ -37,52 +42,71 @@ def off_place(c: int, k: int, state: Any, tables: Any, settings: Any) -> bool:
     # Against what it asked for: what it could not have then is no reason to step for ever.
     gap_x = state.position[c, 0] + offset.x - state.foot_preferred[c, k, 0]
     gap_z = state.position[c, 2] + offset.z - state.foot_preferred[c, k, 2]
-    return math.hypot(gap_x, gap_z) > IN_PLACE * tables.legs.length[k]  # type: ignore[no-any-return]
+    return math.hypot(gap_x, gap_z) > IN_PLACE * tables.legs.length[k]
+
+
+@kernel
+def any_off_place(c: int, state: Any, tables: Any, settings: Any) -> bool:
+    """Return whether the creature wishes to step: it moves, or a foot is off its rest place."""
+    if is_moving(c, state, tables):
+        return True
+    for k in range(state.swinging.shape[1]):
+        if off_place(c, k, state, tables, settings):
+            return True
+    return False
+
+
+@kernel
+def seconds_to_touchdown(c: int, k: int, state: Any) -> float:
+    """Return the seconds until a foot that lifts now shall land."""
+    extent = state.swing_extent[c, k]
+    gone = swing_progress(state.needle[c], state.swing_start[c, k], extent)
+    seconds: float = (1.0 - max(gone, 0.0)) * extent / state.cycle_rate[c]
+    return seconds
 
 
 @kernel
 def lift_feet(
-    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
+    c: int, dt: float, turn: float, pose: PlanPose, state: Any, command: Any, tables: Any,
+    settings: Any, env: Any, plan_settings: Any, scratch: Any,
 ) -> None:  # fmt: skip
     """Let the feet whose sector the needle has entered leave the ground, if they find a place.
 
     A foot may lift late, inside a window of its disk; never where that would leave fewer feet down
     than the gait's own minimum. One that finds no place holds its own and looks farther next time.
+    `turn` is how far the needle turned in this step, cycles.
     """
-    moving = is_moving(c, state, command, tables)
-    down = 0
-    for k in range(state.stance.shape[1]):
-        if state.stance[c, k]:
-            down += 1
-    for k in range(state.stance.shape[1]):
-        if not state.stance[c, k]:
-            continue
-        gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
-        if gone < 0.0 or gone > settings.late_lift or down <= command.gait_minimum[c]:
-            continue
-        if not moving and not off_place(c, k, state, tables, settings):
-            continue
-        touchdown = (1.0 - gone) * state.swing_extent[c, k] / state.cycle_rate[c]
+    moving = is_moving(c, state, tables)
+    for k in range(state.swinging.shape[1]):
+        scratch.held[k] = not moving and not off_place(c, k, state, tables, settings)
+    while True:
+        k = next_foot_to_lift(
+            state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
+            state.stood[c], scratch.held, state.least_down[c], settings.late_lift,
+        )  # fmt: skip
+        if k < 0:
+            break
+        scratch.held[k] = True
+        seconds = seconds_to_touchdown(c, k, state)
         radius = settings.search_radius * tables.legs.length[k]
         if state.waiting[c, k] > 0.0:
             radius *= settings.wider_search
-        preferred = preferred_footprint(c, k, pose, touchdown, state, command, tables, settings)
-        still = Vec3(0.0, 0.0, 0.0)
+        preferred = preferred_footprint(c, k, pose, seconds, state, command, tables, settings)
         if plan_foot(
-            c, k, pose, preferred, touchdown, still, radius,
+            c, k, pose, preferred, seconds, Vec3(0.0, 0.0, 0.0), radius,
             state, command, tables, settings, env, plan_settings, scratch,
         ):  # fmt: skip
-            begin_swing(c, k, gone, 0.0, state, scratch)
+            state.swinging[c, k] = True
+            begun = lift_phase(state.needle[c], turn, state.swing_start[c, k])
+            begin_swing(c, k, begun, 0.0, state, scratch)
             state.waiting[c, k] = 0.0
-            down -= 1
         else:
             state.waiting[c, k] += dt
 
 
 @kernel
-def begin_swing(c: int, k: int, gone: float, launch: float, state: Any, scratch: Any) -> None:
-    """Put a foot on the path just planned, at the share `gone` of its swing sector."""
+def begin_swing(c: int, k: int, begun: float, launch: float, state: Any, scratch: Any) -> None:
+    """Put a foot on the path just planned, whose time begins at the needle's phase `begun`."""
     trial = scratch.path
     kept = path_row(state.path, c, k)
     kept.count[0] = trial.count[0]
@@ -96,21 +120,31 @@ def begin_swing(c: int, k: int, gone: float, launch: float, state: Any, scratch:
         state.foot_start[c, k, axis] = state.foot[c, k, axis]
     for axis in range(4):
         state.foot_rotation_start[c, k, axis] = state.foot_rotation[c, k, axis]
-    state.stance[c, k] = False
-    state.swing_from[c, k] = gone
+    state.lift_phase[c, k] = begun
     state.swing_progress[c, k] = 0.0
     state.path_launch[c, k] = launch
 
 
 @kernel
+def swing_pace(c: int, k: int, state: Any) -> float:
+    """Return the progress a second that a foot's disk asks of its present swing."""
+    start = state.swing_start[c, k]
+    begun = swing_progress(state.lift_phase[c, k], start, state.swing_extent[c, k])
+    span = (1.0 - max(begun, 0.0)) * state.swing_extent[c, k]
+    pace: float = state.cycle_rate[c] / max(span, 1e-3)
+    return pace
+
+
+@kernel
 def swing_time_left(c: int, k: int, state: Any) -> float:
-    """Return the seconds until touchdown that the disk, or a late foot's own pace, leaves."""
-    rate = state.cycle_rate[c]
-    gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
-    share = (1.0 - gone) if gone >= 0.0 else 0.0
-    own = (1.0 - state.swing_progress[c, k]) * (1.0 - state.swing_from[c, k]) / FASTEST_CATCH_UP
-    left: float = max(share, own) * state.swing_extent[c, k] / rate
-    return left
+    """Return the seconds until touchdown: by the disk, or at a late foot's fastest pace."""
+    needle = state.needle[c]
+    gone = swing_progress(needle, state.swing_start[c, k], state.swing_extent[c, k])
+    left = 0.0
+    if gone >= 0.0:
+        left = (1.0 - gone) * state.swing_extent[c, k] / state.cycle_rate[c]
+    late = (1.0 - state.swing_progress[c, k]) / (FASTEST_CATCH_UP * swing_pace(c, k, state))
+    return float(max(left, late))
 
 
 @kernel
@@ -123,8 +157,8 @@ def replan_feet(
     Position and velocity are continuous at the join: the new path starts along the present
     velocity and is launched at the present speed.
     """
-    for k in range(state.stance.shape[1]):
-        if state.stance[c, k] or state.swing_progress[c, k] > settings.replan_until:
+    for k in range(state.swinging.shape[1]):
+        if not state.swinging[c, k] or state.swing_progress[c, k] > settings.replan_until:
             continue
         left = swing_time_left(c, k, state)
         preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)
@@ -146,23 +180,19 @@ def replan_feet(
             c, k, pose, preferred, left, velocity, radius,
             state, command, tables, settings, env, plan_settings, scratch,
         ):  # fmt: skip
-            gone = state.swing_from[c, k] + state.swing_progress[c, k] * (
-                1.0 - state.swing_from[c, k]
-            )
             launch = speed / max(scratch.path.length[0], 1e-12)
-            begin_swing(c, k, gone, launch, state, scratch)
+            begin_swing(c, k, state.needle[c], launch, state, scratch)
 
 
 @kernel
 def wished_progress(c: int, k: int, dt: float, state: Any) -> float:
     """Return how far along its swing a foot should be by now, its catching up bounded."""
-    gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
-    span = 1.0 - state.swing_from[c, k]
-    wished = 1.0 if gone < 0.0 else (gone - state.swing_from[c, k]) / span
-    pace = state.cycle_rate[c] / (state.swing_extent[c, k] * span)
-    most = state.swing_progress[c, k] + FASTEST_CATCH_UP * pace * dt
-    progress: float = min(1.0, max(state.swing_progress[c, k], min(wished, most)))
-    return progress
+    wished = progress_since_lift(
+        state.needle[c], state.lift_phase[c, k], state.swing_start[c, k], state.swing_extent[c, k]
+    )
+    now = state.swing_progress[c, k]
+    most = now + FASTEST_CATCH_UP * swing_pace(c, k, state) * dt
+    return float(min(1.0, max(now, min(wished, most))))
 
 
 @kernel
@@ -182,7 +212,7 @@ def foot_along(c: int, k: int, progress: float, state: Any) -> tuple[Vec3, Quat]
 @kernel
 def shift_spacing(c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any) -> None:
     """Move each foot's rest place to the wished one at a set rate (P1 Fig 6)."""
-    for k in range(state.stance.shape[1]):
+    for k in range(state.swinging.shape[1]):
         most = settings.spacing_rate * tables.legs.length[k] * dt
         for axis in range(2):
             gap = command.spacing[c, k, axis] - state.spacing[c, k, axis]

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.gait.needle import minimum_feet_down, needle_turns, turn_needle
+from polypod.gait.needle import minimum_feet_down, turn_needle
 from polypod.gait.tempo import tempo
-from polypod.gait.transition import adopt_disks, approach_disks
+from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
 from polypod.math.intervals import wrap_phase
 
 # The duty factor follows speed within about so many cycles.
@@ -17,7 +17,7 @@ DUTY_CYCLES = 0.5
 
 @kernel
 def fastest_foot_speed(c: int, state: Any, tables: Any) -> float:
-    """Return the ground speed of the fastest foot's rest place, m/s: it sets the tempo in a turn."""
+    """Return the speed of the fastest foot's rest place, m/s: it sets the tempo in a turn."""
     legs = tables.legs
     most = 0.0
     for k in range(legs.length.shape[0]):
@@ -71,7 +71,7 @@ def advance_gait(
     for k in range(feet):
         if state.swinging[c, k]:
             in_swing += 1
-    if not (wishes_to_step or needle_turns(0.0, in_swing)):
+    if not wishes_to_step and in_swing == 0:
         state.cycle_rate[c] = 0.0
         return 0.0
     state.cycle_rate[c] = 1.0 / aim.period
@@ -82,6 +82,11 @@ def advance_gait(
         state.gait_number[c] = command.gait_number[c]
         state.blend_left[c] = command.blend_cycles[c]
         state.duty[c] = aim.duty
+        destination_disks(c, command, state.duty[c], scratch.start, scratch.extent)
+        state.needle[c] = align_cycle(
+            state.needle[c], state.swing_start[c], state.goal_start[c], state.lift_phase[c],
+            scratch.start, scratch.extent,
+        )  # fmt: skip
     destination_disks(c, command, state.duty[c], scratch.start, scratch.extent)
     blending = state.blend_left[c] > 0.0
     state.blend_left[c] = approach_disks(
@@ -89,9 +94,11 @@ def advance_gait(
         needle.turn, state.blend_left[c],
     )  # fmt: skip
     waiting = adopt_disks(
-        state.needle[c], state.swing_start[c], state.swing_extent[c],
+        state.swing_start[c], state.swing_extent[c],
         state.goal_start[c], state.goal_extent[c], state.swinging[c],
     )  # fmt: skip
+    for k in range(feet):
+        state.stood[c, k] += needle.turn
     least = minimum_feet_down(scratch.start, scratch.extent)
     # On the way between two gaits the weaker of their own minima holds.
     if (blending or waiting > 0) and state.least_down[c] < least:

@@ -43,10 +43,10 @@ def pose_leg_of(
 
 @kernel
 def pose_joints(c: int, state: Any, tables: Any, scratch: Any) -> None:
-    """Write the pose of every joint of a creature: world positions, rotations away from the rest."""
+    """Write the pose of every joint: world positions, and rotations away from the rest."""
     position = load_vec3(state.position[c])
     turn = load_quat(state.rotation[c])
-    for k in range(state.stance.shape[1]):
+    for k in range(state.swinging.shape[1]):
         pose_leg_of(c, k, position, turn, state, tables, scratch)
     joints = tables.joints
     for j in range(joints.parent.shape[0]):

@@ -1,0 +1,132 @@
+"""What a user asks of a herd, by name; writes the arrays that kernels read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from polypod.errors import SettingError
+from polypod.gait.pattern import Gait
+from polypod.state import HerdCommand
+
+
+class Asked:
+    """An attribute of `Command` that is one number a creature; a single number is given to all."""
+
+    def __init__(self, low: float, high: float, unit: str) -> None:
+        self.low = low
+        self.high = high
+        self.unit = unit
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+
+    def __get__(self, command: Any, owner: type) -> Any:
+        return self if command is None else getattr(command.arrays, self.name)
+
+    def __set__(self, command: Command, value: ArrayLike) -> None:
+        numbers = np.asarray(value, dtype=np.float64)
+        if not np.all((numbers >= self.low) & (numbers <= self.high)):
+            raise SettingError(
+                f"{self.name} is {value!r}; "
+                f"it must be from {self.low:g} to {self.high:g} {self.unit}"
+            )
+        try:
+            getattr(command.arrays, self.name)[:] = numbers
+        except ValueError:
+            count = command.arrays.speed.shape[0]
+            raise SettingError(
+                f"{self.name} has shape {numbers.shape}; give one number, or one for each of "
+                f"{count} creatures"
+            ) from None
+
+
+class Command:
+    """Speed, direction, gait and posture asked of a herd; changeable at any time between steps.
+
+    Attributes (each one number for all, or one for each creature; all read back as arrays [C]):
+        speed: m/s.
+        heading: rad about +Y from +Z toward +X; used where there is no path.
+        travel: rad from the heading to the direction of travel (a crab's is pi / 2).
+        step_height: m, of a swing foot over level ground.
+        body_height: m, of the body centre above the plane of the feet.
+        blend_cycles: gait cycles in which a change of gait takes place.
+    """
+
+    speed = Asked(0.0, 100.0, "m/s")
+    heading = Asked(-1e6, 1e6, "rad")
+    travel = Asked(-math.pi, math.pi, "rad")
+    step_height = Asked(0.0, 100.0, "m")
+    body_height = Asked(0.0, 1000.0, "m")
+    blend_cycles = Asked(0.1, 100.0, "cycles")
+
+    def __init__(self, arrays: HerdCommand) -> None:
+        self.arrays = arrays
+
+    @property
+    def period(self) -> Any:
+        """Seconds a gait cycle [C]; NaN where it follows speed and morphology."""
+        return self.arrays.period
+
+    @period.setter
+    def period(self, value: ArrayLike | None) -> None:
+        numbers = np.asarray(math.nan if value is None else value, dtype=np.float64)
+        if np.any(numbers <= 1e-3) or np.any(np.isinf(numbers)):
+            raise SettingError(f"period is {value!r}; it must be above 0.001 s, or None")
+        self.arrays.period[:] = numbers
+
+    @property
+    def spacing(self) -> Any:
+        """Shift of each foot's rest place [C, K, 2]: toward the left and forward, m (P1 Fig 6)."""
+        return self.arrays.spacing
+
+    @spacing.setter
+    def spacing(self, value: ArrayLike) -> None:
+        numbers = np.asarray(value, dtype=np.float64)
+        if not np.all(np.isfinite(numbers)):
+            raise SettingError(f"spacing is {value!r}; it must be finite metres, [feet, 2]")
+        try:
+            self.arrays.spacing[:] = numbers
+        except ValueError:
+            shape = self.arrays.spacing.shape
+            raise SettingError(
+                f"spacing has shape {numbers.shape}; it must fit [creatures, feet, 2] = {shape}"
+            ) from None
+
+    def set_gait(self, gait: Gait, creature: int | slice = slice(None)) -> None:
+        """Ask for a gait; a walking creature changes to it by P1's rule.
+
+        Raises:
+            SettingError: the gait is for another number of feet.
+        """
+        feet = self.arrays.gait_touchdown.shape[1]
+        if gait.foot_count != feet:
+            raise SettingError(
+                f"gait '{gait.name}' is for {gait.foot_count} feet; this creature has {feet}"
+            )
+        self.arrays.gait_touchdown[creature] = gait.touchdown
+        self.arrays.gait_share[creature] = (1.0 - gait.swing_extent) / gait.duty
+        self.arrays.gait_lag[creature] = gait.lag_per_duty
+        self.arrays.gait_number[creature] += 1
+        self.arrays.gait_duty[creature] = (gait.duty, gait.duty_low, gait.duty_high)
+        if not math.isnan(gait.period):
+            self.arrays.period[creature] = gait.period
+
+    def set_path(self, waypoints: Sequence[Sequence[float]], creature: int) -> None:
+        """Ask one creature to walk over waypoints [W, 2] of x, z, and to stop at the last.
+
+        Raises:
+            SettingError: the points are not finite pairs, or more than there is room for.
+        """
+        points = np.asarray(waypoints, dtype=np.float64)
+        room = self.arrays.waypoints.shape[1]
+        if points.ndim != 2 or points.shape[1] != 2 or not np.all(np.isfinite(points)):
+            raise SettingError("a path must be a list of finite points x, z")
+        if not 1 <= len(points) <= room:
+            raise SettingError(f"a path has {len(points)} points; it may have 1 to {room}")
+        self.arrays.waypoints[creature, : len(points)] = points
+        self.arrays.waypoint_count[creature] = len(points)

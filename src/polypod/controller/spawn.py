@@ -1,0 +1,102 @@
+"""A creature's first stand: every foot placed by the normal search, the body over them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from polypod.body.pose import wished_height
+from polypod.body.reach import body_within_reach
+from polypod.body.support import body_rotation, feet_plane
+from polypod.compute import kernel
+from polypod.controller.feet import plan_foot, rest_offset
+from polypod.controller.settle import feet_fit
+from polypod.controller.steering import plan_pose
+from polypod.environment.table import surface
+from polypod.math.quat import store_quat
+from polypod.math.vec3 import Vec3, load_vec3, store_vec3
+
+# Body and feet are placed in turns: each fits the other better.
+TURNS = 4
+SEARCH_GROWTH = 1.6
+# Feet come down from so many leg lengths above their place.
+FROM_ABOVE = 0.5
+
+
+@kernel
+def stand_feet(
+    c: int, radius: float, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> bool:  # fmt: skip
+    """Place every foot of a creature near its rest place under the present body pose."""
+    pose = plan_pose(c, state)
+    for k in range(state.swinging.shape[1]):
+        offset = rest_offset(c, k, pose.heading, state, tables, settings)
+        x = pose.x + offset.x
+        z = pose.z + offset.z
+        height, _ = surface(env, x, z)
+        above = height + FROM_ABOVE * tables.legs.length[k]
+        store_vec3(state.foot[c, k], Vec3(x, above, z))
+        if not plan_foot(
+            c, k, pose, Vec3(x, height, z), 0.0, Vec3(0.0, 0.0, 0.0),
+            radius * tables.legs.length[k],
+            state, command, tables, settings, env, plan_settings, scratch,
+        ):  # fmt: skip
+            return False
+        for axis in range(3):
+            state.foot[c, k, axis] = state.foot_target[c, k, axis]
+        for axis in range(4):
+            state.foot_rotation[c, k, axis] = state.foot_rotation_target[c, k, axis]
+        _, support = surface(env, state.foot[c, k, 0], state.foot[c, k, 2])
+        state.foot_support[c, k] = support
+    return True
+
+
+@kernel
+def stand_body(
+    c: int, state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any
+) -> bool:
+    """Put the body over its feet, level with their plane; return whether all are in reach."""
+    plane = feet_plane(c, state, tables)
+    share = settings.tilt_share * tables.tilt_scale
+    for axis in range(2):
+        slope = plane.slope_forward if axis == 0 else plane.slope_left
+        state.slope[c, axis] = slope
+        state.tilt[c, axis, 0] = slope * share
+        state.tilt[c, axis, 1] = 0.0
+        state.tilt[c, axis, 2] = slope * share
+    pose = plan_pose(c, state)
+    turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    store_quat(state.rotation[c], turn)
+    # An endless time step: the filter arrives, whatever it was.
+    height = wished_height(
+        c, 1e6, pose, plane, turn, state, command, tables, settings, env, scratch
+    )
+    position = body_within_reach(c, state, tables, Vec3(pose.x, height, pose.z), turn)
+    store_vec3(state.position[c], position)
+    return feet_fit(c, 0.0, position, turn, state, tables, scratch)
+
+
+@kernel
+def spawn(
+    c: int, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> bool:  # fmt: skip
+    """Stand a creature at its position and heading on the plane; return whether it can stand."""
+    height, _ = surface(env, state.position[c, 0], state.position[c, 2])
+    state.position[c, 1] = height + command.body_height[c]
+    wished = load_vec3(state.position[c])
+    radius = settings.search_radius
+    fits = False
+    for _ in range(TURNS):
+        state.position[c, 0] = wished.x
+        state.position[c, 2] = wished.z
+        if stand_feet(
+            c, radius, state, command, tables, settings, env, plan_settings, scratch
+        ):  # fmt: skip
+            fits = stand_body(c, state, command, tables, settings, env, scratch)
+        else:
+            fits = False
+        if fits:
+            break
+        radius *= SEARCH_GROWTH
+    return fits

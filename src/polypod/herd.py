@@ -1,0 +1,124 @@
+"""All creatures of one morphology in a world: what they are and do, and what is asked of them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from polypod.body.hull import make_hull_scratch
+from polypod.command import Command
+from polypod.config import Settings
+from polypod.footprints.plan import PlanScratch, make_plan_scratch
+from polypod.footprints.settings import PlanSettings
+from polypod.gait.tempo import GRAVITY
+from polypod.ik.table import build_ik_table
+from polypod.morphology.types import BoolArray, FloatArray, Morphology
+from polypod.paths.curve import PathRow, path_store
+from polypod.state import HerdTables, JointTable, make_command, make_state
+
+WAYPOINT_ROOM = 256
+# A trunk on two legs cannot follow the slope between its feet: it would nod at each step.
+TWO_LEGGED_TILT = 0.25
+
+
+class Scratch(NamedTuple):
+    """Working memory of one thread."""
+
+    plan: PlanScratch
+    path: PathRow  # the path just planned, before it is taken
+    hull: FloatArray  # [points, 2]
+    progress: FloatArray  # [K]
+    held: BoolArray  # [K]
+    start: FloatArray  # [K]
+    extent: FloatArray  # [K]
+    leg_rotation: FloatArray  # [M, 4]
+    leg_point: FloatArray  # [M + 1, 3]
+
+
+class Pose(NamedTuple):
+    """Where every joint is: views of the herd's state, valid until the next step."""
+
+    position: FloatArray  # [C, J, 3] world, m
+    rotation: FloatArray  # [C, J, 4] world, away from the rest pose; x, y, z, w
+
+
+def make_tables(morphology: Morphology) -> HerdTables:
+    """Return a morphology's static data as kernels read it."""
+    legs = morphology.legs
+    driven = np.zeros(len(morphology.joint_node), np.bool_)
+    driven[legs.joint[legs.joint >= 0]] = True
+    driven[legs.foot_joint[legs.foot_joint >= 0]] = True
+    leg_length = float(np.mean(legs.length))
+    hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
+    return HerdTables(
+        legs=legs,
+        ik=build_ik_table(legs),
+        body=morphology.body,
+        joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
+        leg_length=leg_length,
+        hip_height=max(hip_height, 0.05 * leg_length),
+        pendulum_time=math.sqrt(leg_length / GRAVITY),
+        tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
+        upright=bool(np.mean(legs.upright) > 0.5),
+    )
+
+
+class Herd:
+    """All creatures of one morphology in a world; made by `World.add`.
+
+    Attributes:
+        morphology: what they are.
+        command: what is asked of them; write to it at any time between steps.
+        state: what changes, arrays [creature, ...].
+        pose: where every joint is, after the last step.
+    """
+
+    def __init__(self, morphology: Morphology, count: int, settings: Settings) -> None:
+        feet = len(morphology.foot_name)
+        joints = len(morphology.joint_node)
+        self.morphology = morphology
+        self.settings = settings
+        self.plan_settings = PlanSettings()
+        self.tables = make_tables(morphology)
+        self.state = make_state(count, feet, joints)
+        self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
+        self.command.body_height = morphology.body.height
+        self.command.step_height = settings.step_height * self.tables.leg_length
+        self._scratch: list[Scratch] = []
+
+    @property
+    def count(self) -> int:
+        """How many creatures there are."""
+        return int(self.state.heading.shape[0])
+
+    @property
+    def pose(self) -> Pose:
+        """Where every joint is, after the last step."""
+        return Pose(self.state.joint_position, self.state.joint_rotation)
+
+    def scratch(self, worker: int) -> Scratch:
+        """Return the working memory of a thread, made when first asked for."""
+        while len(self._scratch) <= worker:
+            legs = self.morphology.legs
+            feet, most = legs.joint.shape
+            path = path_store(1, 1)
+            self._scratch.append(
+                Scratch(
+                    plan=make_plan_scratch(self.plan_settings, feet),
+                    path=PathRow(*(array[0, 0] for array in path)),
+                    hull=make_hull_scratch(feet),
+                    progress=np.zeros(feet),
+                    held=np.zeros(feet, np.bool_),
+                    start=np.zeros(feet),
+                    extent=np.zeros(feet),
+                    leg_rotation=np.zeros((most, 4)),
+                    leg_point=np.zeros((most + 1, 3)),
+                )
+            )
+        return self._scratch[worker]
+
+    def kernel_settings(self) -> Any:
+        """Return the settings as kernels read them."""
+        return self.settings.values()

@@ -1,0 +1,65 @@
+"""Walking a world for a while and keeping every frame: a sink of the loop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from polypod.herd import Herd
+from polypod.report.record import Recorder, Recording
+from polypod.world import World
+
+
+def _add_frame(
+    recorders: list[tuple[Herd, int, Recorder]], world: World, places: tuple[list[object], ...]
+) -> None:
+    for herd, creature, recorder in recorders:
+        state = herd.state
+        recorder.add(
+            world.time,
+            state.position[creature],
+            state.rotation[creature],
+            state.joint_position[creature],
+            state.joint_rotation[creature],
+            state.foot_reached[creature],
+            state.foot[creature],
+            ~state.swinging[creature],
+            np.where(state.swinging[creature], -1, state.foot_support[creature]),
+            np.asarray(places[0]),
+            np.asarray(places[1]),
+        )
+
+
+def record_walk(
+    world: World,
+    seconds: float,
+    fps: float,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Recording]:
+    """Walk a world for `seconds` and return a recording for each creature, herd by herd.
+
+    There are round(seconds x fps) + 1 frames, the first at time 0, before anything moved.
+    `progress(done, total)` is called after each frame.
+    """
+    obstacles = world.environment.obstacles
+    places: tuple[list[object], ...] = (
+        [obstacle.position for obstacle in obstacles],
+        [obstacle.rotation for obstacle in obstacles],
+    )
+    recorders = [
+        (herd, creature, Recorder(herd.morphology, len(obstacles)))
+        for herd in world.herds
+        for creature in range(herd.count)
+    ]
+    steps = round(seconds * fps)
+    start = world.time
+    _add_frame(recorders, world, places)
+    for step in range(1, steps + 1):
+        world.step(1.0 / fps)
+        # Times are counted, not summed: frame n is at n / fps to the last bit.
+        world.time = start + step / fps
+        _add_frame(recorders, world, places)
+        if progress is not None:
+            progress(step, steps)
+    return [recorder.finish() for _, _, recorder in recorders]

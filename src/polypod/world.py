@@ -1,0 +1,226 @@
+"""The world: herds of creatures in an environment, and the loop that walks them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from polypod.body.pose import update_tilt, wished_height
+from polypod.body.support import body_rotation, feet_plane
+from polypod.compute import kernel, over_creatures, thread_count
+from polypod.config import Settings
+from polypod.controller.settle import advance_swings, settle_body
+from polypod.controller.spawn import spawn
+from polypod.controller.steering import PlanPose, move_body
+from polypod.controller.swing import any_off_place, lift_feet, replan_feet, shift_spacing
+from polypod.environment.environment import Environment
+from polypod.environment.obstacles import Obstacle
+from polypod.environment.terrain import Terrain
+from polypod.errors import SettingError
+from polypod.gait.advance import advance_gait, destination_disks
+from polypod.gait.library import default_gait, make_gait
+from polypod.gait.needle import minimum_feet_down, step_count
+from polypod.gait.pattern import Gait
+from polypod.herd import Herd
+from polypod.ik.skeleton import pose_joints
+from polypod.morphology.types import Morphology
+
+LONGEST_STEP = 1.0
+
+
+@kernel
+def note_pose(c: int, pose: PlanPose, state: Any) -> None:
+    """Keep what steering decided; where the body really gets is settled by its legs."""
+    state.turn_rate[c] = pose.turn_rate
+    state.speed[c] = pose.speed
+    state.waypoint[c] = int(pose.waypoint)
+
+
+@kernel
+def step_creature(
+    c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Advance one creature by `dt` seconds: the blocks of P1's Figures 2 and 5, in their order."""
+    # 1. Command: feet spacing approaches what was asked for.
+    shift_spacing(c, dt, state, command, tables, settings)
+    # 2. Gait: tempo, transition, needle.
+    restless = any_off_place(c, state, tables, settings)
+    turn = advance_gait(c, dt, restless, state, command, tables, scratch)
+    # 3. Body on the plane: its default movement, refined by the feet's feedback.
+    pose = move_body(c, dt, state, command, tables, settings)
+    # 4. Maps, footprints and paths, for the feet that need them.
+    replan_feet(c, pose, state, command, tables, settings, env, plan_settings, scratch)
+    lift_feet(c, dt, turn, pose, state, command, tables, settings, env, plan_settings, scratch)
+    # 5. Body: tilt and height over the feet and over what lies beneath.
+    plane = feet_plane(c, state, tables)
+    update_tilt(c, dt, plane, state, tables, settings)
+    lean = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    height = wished_height(c, dt, pose, plane, lean, state, command, tables, settings, env, scratch)
+    # 6. Reach: the body goes as far as its legs allow, and the swinging feet with it.
+    note_pose(c, pose, state)
+    settle_body(c, dt, pose, height, state, tables, scratch)
+    advance_swings(c, state, scratch, env)
+    # 7. Inverse kinematics: a pose for every joint.
+    pose_joints(c, state, tables, scratch)
+
+
+@kernel
+def step_range(
+    first: int, last: int, dt: float, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Step the creatures first to last - 1; a needle that turns far in `dt` goes in parts."""
+    for c in range(first, last):
+        parts = step_count(dt * state.cycle_rate[c], state.swing_extent[c])
+        for _ in range(parts):
+            step_creature(
+                c, dt / parts, state, command, tables, settings, env, plan_settings, scratch
+            )
+
+
+@kernel
+def begin(
+    c: int, phase: float, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> bool:  # fmt: skip
+    """Stand a creature and set its disks; return whether it can stand where it is."""
+    duty = min(command.gait_duty[c, 2], max(command.gait_duty[c, 1], command.gait_duty[c, 0]))
+    state.duty[c] = duty
+    state.gait_number[c] = command.gait_number[c]
+    destination_disks(c, command, duty, state.goal_start[c], state.goal_extent[c])
+    destination_disks(c, command, duty, state.swing_start[c], state.swing_extent[c])
+    state.least_down[c] = minimum_feet_down(state.swing_start[c], state.swing_extent[c])
+    state.needle[c] = phase
+    for k in range(state.stood.shape[1]):
+        state.stood[c, k] = 1.0
+    fits = spawn(c, state, command, tables, settings, env, plan_settings, scratch)
+    if fits:
+        pose_joints(c, state, tables, scratch)
+    return fits
+
+
+class World:
+    """Creatures and the place they walk in.
+
+    Args:
+        place: the terrain, or a whole environment; flat ground where omitted.
+        obstacles: what stands on the terrain, where `place` is a terrain.
+        threads: how many threads may step creatures; all cores where omitted. Results do not
+            depend on it, to the last bit.
+    """
+
+    def __init__(
+        self,
+        place: Terrain | Environment | None = None,
+        obstacles: Sequence[Obstacle] = (),
+        *,
+        threads: int | None = None,
+    ) -> None:
+        if not isinstance(place, Environment):
+            place = Environment(place, obstacles)
+        self.environment = place
+        self.herds: list[Herd] = []
+        self.time = 0.0
+        self.threads = thread_count() if threads is None else max(1, int(threads))
+
+    def add(
+        self,
+        morphology: Morphology,
+        count: int = 1,
+        *,
+        position: ArrayLike | None = None,
+        heading: ArrayLike = 0.0,
+        gait: Gait | str | None = None,
+        speed: ArrayLike = 0.0,
+        settings: Settings | None = None,
+    ) -> Herd:
+        """Stand creatures of one morphology in the world and return them as a herd.
+
+        Args:
+            morphology: what they are.
+            count: how many.
+            position: [count, 2] or [2]: x, z, m; in rows beside each other where omitted.
+            heading: rad about +Y from +Z toward +X, one number or [count].
+            gait: a gait or its name; what fits legs and speed where omitted.
+            speed: m/s, asked for from the first step on.
+            settings: how they are controlled.
+
+        Raises:
+            SettingError: no room to stand at a position, or an argument that cannot be used.
+            GaitError: no such gait.
+        """
+        if not isinstance(count, int) or not 1 <= count <= 100_000:
+            raise SettingError(f"count is {count!r}; it must be from 1 to 100000 creatures")
+        herd = Herd(morphology, count, settings or Settings())
+        herd.command.speed = speed
+        herd.command.heading = heading
+        places = rows(count, herd.tables.leg_length) if position is None else position
+        points = np.broadcast_to(np.asarray(places, dtype=np.float64), (count, 2))
+        if not np.all(np.isfinite(points)):
+            raise SettingError("a creature's position must be finite x and z")
+        herd.state.position[:, 0] = points[:, 0]
+        herd.state.position[:, 2] = points[:, 1]
+        herd.state.heading[:] = herd.command.heading
+        chosen = self._gait(herd, gait, float(np.max(herd.command.speed)))
+        herd.command.set_gait(chosen)
+        scratch = herd.scratch(0)
+        for c in range(count):
+            # A golden-angle offset, so that the creatures of a herd are not in step.
+            phase = (chosen.standing_phase + c * 0.618033988749895) % 1.0
+            if not begin(
+                c, phase, herd.state, herd.command.arrays, herd.tables, herd.kernel_settings(),
+                self.environment.table, herd.plan_settings, scratch,
+            ):  # fmt: skip
+                x, z = points[c]
+                raise SettingError(
+                    f"{morphology.name} cannot stand at x {x:g}, z {z:g}: not every foot finds a "
+                    "place within reach; choose a flatter or freer position"
+                )
+        self.herds.append(herd)
+        return herd
+
+    def _gait(self, herd: Herd, gait: Gait | str | None, speed: float) -> Gait:
+        if isinstance(gait, Gait):
+            return gait
+        legs = herd.tables.legs
+        if gait is not None:
+            return make_gait(gait, legs.side, legs.row)
+        size = herd.tables.hip_height if herd.tables.upright else herd.tables.leg_length
+        return default_gait(legs.side, legs.row, legs.upright, speed * speed / (9.81 * size))
+
+    def step(self, dt: float) -> None:
+        """Advance everything by `dt` seconds.
+
+        Raises:
+            SettingError: `dt` is not above 0 and at most 1 s.
+        """
+        if not 0.0 < dt <= LONGEST_STEP:
+            raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
+        for herd in self.herds:
+            settings = herd.kernel_settings()
+            for worker in range(self.threads):
+                herd.scratch(worker)
+
+            def run(
+                first: int, last: int, worker: int, herd: Herd = herd, settings: Any = settings
+            ) -> None:
+                step_range(
+                    first, last, dt, herd.state, herd.command.arrays, herd.tables, settings,
+                    self.environment.table, herd.plan_settings, herd.scratch(worker),
+                )  # fmt: skip
+
+            over_creatures(run, herd.count, self.threads)
+        self.time += dt
+
+
+def rows(count: int, leg_length: float) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Return places [count, 2] in a square of rows, three leg lengths apart, about the origin."""
+    side = math.ceil(math.sqrt(count))
+    index = np.arange(count)
+    grid = np.stack([index % side, index // side], axis=1).astype(np.float64)
+    return (grid - 0.5 * (side - 1)) * 3.0 * leg_length
