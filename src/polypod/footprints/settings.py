@@ -66,7 +66,9 @@ class StepRequest(NamedTuple):
     hip_start: Vec3  # the hip's pivot at lift-off
     hip_touchdown: Vec3  # predicted at touchdown
     hip_end_of_stance: Vec3  # predicted at the end of the coming stance
-    effector_offset_touchdown: Vec3  # sole + offset = effector, whose distance to the hip is limited
+    effector_offset_touchdown: (
+        Vec3  # sole + offset = effector, whose distance to the hip is limited
+    )
     reach_min: float  # m, effector to hip
     reach_max: float
     reach_comfort_max: float

@@ -33,7 +33,7 @@ class PathRow(NamedTuple):
     point: NDArray[np.float64]  # [..., N, 3] world, m
     tangent: NDArray[np.float64]  # [..., N, 3] world, m per unit of progress
     fraction: NDArray[np.float64]  # [..., N] progress at the knot, from 0 to 1
-    count: NDArray[np.int64]  # [..., 1] knots in use, 0: no path
+    count: NDArray[np.int64]  # type: ignore[assignment]  # [..., 1] knots in use, 0: no path
     length: NDArray[np.float64]  # [..., 1] m, arc length
 
 

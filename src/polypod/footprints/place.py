@@ -1,0 +1,255 @@
+"""How good a place is for a foot, judged by the true shapes (P1 section 5.1)."""
+
+from __future__ import annotations
+
+import math
+
+from polypod.compute import kernel
+from polypod.environment.table import EnvironmentTable, is_forbidden, is_wet, surface
+from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.math.vec3 import Vec3, distance
+from polypod.paths.check import leg_contact
+from polypod.paths.scratch import OtherLegs
+
+REJECTED = -1.0
+# Directions in which the next step may leave a place: angle from the course, and how good that is.
+EXITS = 5
+EXIT_ANGLE = 0.7  # radians between two of them
+EXIT_SAMPLES = 5
+# What a leg cannot get over, shares of its longest reach above the place.
+TOO_HIGH = 0.7
+
+
+@kernel
+def even_score(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return 1 for a plane under the foot's shape down to 0 at the tolerance; REJECTED beyond.
+
+    Four points on the shape's outline give the plane; four more, further out, tell what part of the
+    surroundings continues it: beside an edge or a wall the score falls to half.
+    """
+    leg = request.leg_length
+    sine = math.sin(request.foot_yaw)
+    cosine = math.cos(request.foot_yaw)
+    half_x = request.foot_half_x + settings.toe * leg
+    half_z = request.foot_half_z + settings.toe * leg
+    east, _ = surface(env, x + half_x * cosine, z - half_x * sine)
+    west, _ = surface(env, x - half_x * cosine, z + half_x * sine)
+    north, _ = surface(env, x + half_z * sine, z + half_z * cosine)
+    south, _ = surface(env, x - half_z * sine, z - half_z * cosine)
+    slope_x = (east - west) / (2.0 * half_x)
+    slope_z = (north - south) / (2.0 * half_z)
+    if slope_x * slope_x + slope_z * slope_z > settings.slope * settings.slope:
+        return REJECTED
+    rough = max(abs(east + west - 2.0 * y), abs(north + south - 2.0 * y)) * 0.5
+    for corner in range(4):
+        a = half_x if corner < 2 else -half_x
+        b = half_z if corner % 2 == 0 else -half_z
+        height, _ = surface(env, x + a * cosine + b * sine, z - a * sine + b * cosine)
+        rough = max(rough, abs(height - y - slope_x * a - slope_z * b))
+    tolerance = settings.uneven * leg
+    return REJECTED if rough > tolerance else 1.0 - rough / tolerance
+
+
+@kernel
+def edge_score(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return the share of a ring about the foot that continues its surface without edge or wall."""
+    leg = request.leg_length
+    ring_x = request.foot_half_x + settings.edge * leg
+    ring_z = request.foot_half_z + settings.edge * leg
+    sine = math.sin(request.foot_yaw)
+    cosine = math.cos(request.foot_yaw)
+    good = 0.0
+    for k in range(4):
+        # Opposite points: on any slope their mean is the height between them.
+        a = ring_x * (1.0 if k == 0 else (0.7 if k != 2 else 0.0))
+        b = ring_z * (1.0 if k == 2 else (0.7 if k == 1 else (-0.7 if k == 3 else 0.0)))
+        dx = a * cosine + b * sine
+        dz = -a * sine + b * cosine
+        there, _ = surface(env, x + dx, z + dz)
+        opposite, _ = surface(env, x - dx, z - dz)
+        steep = max(abs(there - y), abs(opposite - y)) > settings.slope * math.hypot(dx, dz)
+        if abs(there + opposite - 2.0 * y) <= settings.drop * leg and not steep:
+            good += 0.25
+    return good
+
+
+@kernel
+def exit_score(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    x: float,
+    y: float,
+    z: float,
+) -> float:
+    """Return how well the next step can leave the place: 1 ahead, less to the sides, 0 not at all.
+
+    Pockets between forbidden or very high things trap legs.
+    """
+    course_x = request.hip_end_of_stance.x - request.hip_touchdown.x
+    course_z = request.hip_end_of_stance.z - request.hip_touchdown.z
+    step = math.hypot(course_x, course_z)
+    if step <= 0.05 * request.leg_length:
+        return 1.0
+    margin = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * (
+        request.leg_length
+    )
+    heading = math.atan2(course_x, course_z)
+    best = 0.0
+    for k in range(EXITS):
+        # 0, +, -, 2+, 2-: mirrored pairs, so that no side is favoured.
+        turn = EXIT_ANGLE * ((k + 1) // 2) * (1.0 if k % 2 == 1 else -1.0)
+        worth = 1.0 - 0.3 * ((k + 1) // 2)
+        if worth <= best:
+            break
+        sine = math.sin(heading + turn)
+        cosine = math.cos(heading + turn)
+        free = True
+        for j in range(1, EXIT_SAMPLES + 1):
+            along = step * j / EXIT_SAMPLES
+            to_x = x + sine * along
+            to_z = z + cosine * along
+            height, _ = surface(env, to_x, to_z)
+            if height - y > TOO_HIGH * request.reach_max or is_forbidden(env, to_x, to_z, margin):
+                free = False
+                break
+        if free:
+            best = worth
+    return best
+
+
+@kernel
+def crosses_leg(legs: OtherLegs, s: int, hip: Vec3, x: float, z: float) -> bool:
+    """Return whether, in plan, the line from the hip to the place crosses leg segment `s`."""
+    ax = legs.a[s, 0]
+    az = legs.a[s, 2]
+    bx = legs.b[s, 0]
+    bz = legs.b[s, 2]
+    side_a = (x - hip.x) * (az - hip.z) - (z - hip.z) * (ax - hip.x)
+    side_b = (x - hip.x) * (bz - hip.z) - (z - hip.z) * (bx - hip.x)
+    if side_a * side_b >= 0.0:
+        return False
+    side_hip = (bx - ax) * (hip.z - az) - (bz - az) * (hip.x - ax)
+    side_foot = (bx - ax) * (z - az) - (bz - az) * (x - ax)
+    return side_hip * side_foot < 0.0
+
+
+@kernel
+def leg_factor(
+    settings: PlanSettings, request: StepRequest, legs: OtherLegs, x: float, y: float, z: float
+) -> float:
+    """Return 1, the factor for crossed legs, or REJECTED where another leg is in the place."""
+    leg = request.leg_length
+    foot = max(request.foot_half_x, request.foot_half_z)
+    factor = 1.0
+    for s in range(request.other_foot_count):
+        clear = legs.radius[s] + foot + settings.leg_gap * leg
+        gap, height = leg_contact(legs, s, x, z)
+        if gap < clear and height > y - clear:
+            at_start, _ = leg_contact(legs, s, request.start_world.x, request.start_world.z)
+            if gap < 0.999 * at_start:
+                return REJECTED
+        if crosses_leg(legs, s, request.hip_touchdown, x, z):
+            factor = settings.crossing
+    # Its own side of the body: no further across than the preferred place is out.
+    side = request.side
+    out = (x - request.body_position.x) * side.x + (z - request.body_position.z) * side.z
+    wanted = (request.preferred_world.x - request.body_position.x) * side.x + (
+        request.preferred_world.z - request.body_position.z
+    ) * side.z
+    return min(factor, settings.crossing) if out < min(0.0, wanted) else factor
+
+
+@kernel
+def reach_score(settings: PlanSettings, request: StepRequest, place: Vec3) -> float:
+    """Return 1 for comfortable reach at touchdown and at the end of stance; REJECTED beyond it."""
+    effector = place + request.effector_offset_touchdown
+    landing = distance(effector, request.hip_touchdown)
+    leaving = distance(effector, request.hip_end_of_stance)
+    most = max(landing, leaving)
+    least = min(landing, leaving)
+    if most > request.reach_max or least < request.reach_min:
+        return REJECTED
+    stretch = most - request.reach_comfort_max
+    if stretch <= 0.0:
+        return 1.0
+    return 1.0 - stretch / max(request.reach_max - request.reach_comfort_max, stretch)
+
+
+@kernel
+def judge_place(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    x: float,
+    z: float,
+    crowded: bool,
+    level: bool,
+) -> tuple[float, float]:
+    """Return a place's score in [0, 1] (REJECTED: it cannot be stood on) and its exact height (m).
+
+    Args:
+        env: the world.
+        settings: margins and weights.
+        request: the step.
+        legs: the other legs, of which `request.other_foot_count` segments count.
+        x: world x, m.
+        z: world z, m.
+        crowded: whether any obstacle is near; without one only the terrain is asked.
+        level: whether the terrain is flat.
+    """
+    y, _ = surface(env, x, z)
+    reach = reach_score(settings, request, Vec3(x, y, z))
+    if reach < 0.0 or is_wet(env, x, z):
+        return REJECTED, y
+    even = 1.0
+    edge = 1.0
+    leave = 1.0
+    if crowded:
+        margin = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * (
+            request.leg_length
+        )
+        if is_forbidden(env, x, z, margin):
+            return REJECTED, y
+    if crowded or not level:
+        even = even_score(env, settings, request, x, y, z)
+        if even < 0.0:
+            return REJECTED, y
+        edge = edge_score(env, settings, request, x, y, z)
+    if crowded:
+        leave = exit_score(env, settings, request, x, y, z)
+    factor = leg_factor(settings, request, legs, x, y, z)
+    if factor < 0.0:
+        return REJECTED, y
+    away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)
+    near = max(1.0 - away / max(request.search_radius, 1e-300), 0.0)
+    whole = (
+        settings.weight_distance
+        + settings.weight_even
+        + settings.weight_edge
+        + settings.weight_reach
+        + settings.weight_escape
+    )
+    score = (
+        settings.weight_distance * near
+        + settings.weight_even * even
+        + settings.weight_edge * edge
+        + settings.weight_reach * reach
+        + settings.weight_escape * leave
+    )
+    return factor * score / whole, y

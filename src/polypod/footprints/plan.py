@@ -1,0 +1,346 @@
+"""The best pair of footprint and path for one foot's step (P1 section 5.2)."""
+
+from __future__ import annotations
+
+import math
+
+from polypod.compute import kernel
+from polypod.environment.maps import LocalMap, fill_maps
+from polypod.environment.table import EnvironmentTable
+from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
+from polypod.footprints.place import judge_place
+from polypod.footprints.scratch import (
+    MAP_CELLS,
+    TALLY_CANDIDATES,
+    TALLY_DIRECT,
+    TALLY_PATHS,
+    TALLY_WAVEFRONTS,
+    PlanScratch,
+    make_plan_scratch,
+)
+from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.math.vec3 import Vec3, load_vec3
+from polypod.paths.around import plan_around
+from polypod.paths.check import deepest, meets_legs, out_of_reach
+from polypod.paths.curve import PATH_KNOTS, PathRow
+from polypod.paths.grid import highest_on_line, line_of_sight, spread_wavefront
+from polypod.paths.lift import (
+    BLEND,
+    arc_start,
+    lift_path,
+    obstacles_near,
+    place_knots,
+    straight_plan,
+)
+from polypod.paths.score import path_score, path_score_bound, plan_bending
+from polypod.paths.scratch import GridScratch, LiftScratch, OtherLegs
+
+__all__ = ["PlanScratch", "make_plan_scratch", "plan_step"]
+
+# A path this good is the direct swing, unhindered.
+UNHINDERED = 0.97
+# Room about start, preferred place and search radius for ways around, leg lengths.
+DETOUR = 0.25
+NOTHING = -1.0
+OVER_ALL = 1e300
+
+
+@kernel
+def copy_path(source: PathRow, target: PathRow) -> None:
+    """Write one path over another."""
+    for k in range(PATH_KNOTS):
+        for axis in range(3):
+            target.point[k, axis] = source.point[k, axis]
+            target.tangent[k, axis] = source.tangent[k, axis]
+        target.fraction[k] = source.fraction[k]
+    target.count[0] = source.count[0]
+    target.length[0] = source.length[0]
+
+
+@kernel
+def try_pair(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    lift: LiftScratch,
+    points: int,
+    end: Vec3,
+    place_score: float,
+    best: float,
+    trial: PathRow,
+) -> tuple[float, float]:
+    """Return the scores of the pair and of its path; NOTHING if it cannot win or is impossible.
+
+    `lift.plan[:points]` holds the path in plan to `end`. The finished path, in `trial`, is checked
+    against the true shapes; where it touches them it is raised there once.
+    """
+    phase, height = arc_start(env, request, end.y)
+    place_knots(lift, points, request, end, phase, height)
+    for k in range(PATH_KNOTS):
+        lift.extra[k] = 0.0
+    blend = BLEND
+    for _ in range(2):
+        if not lift_path(env, settings, request, lift, blend, trial):
+            return NOTHING, 0.0
+        quality = path_score(settings, lift, points)
+        pair = (1.0 - settings.weight_path) * place_score + settings.weight_path * quality
+        if pair <= best or out_of_reach(settings, request, trial):
+            return NOTHING, 0.0
+        if meets_legs(settings, request, legs, trial):
+            return NOTHING, 0.0
+        if deepest(env, settings, request, trial, lift.extra) <= 0.0:
+            return pair, quality
+        blend *= 0.25
+    return NOTHING, 0.0
+
+
+@kernel
+def fill_window(
+    env: EnvironmentTable, settings: PlanSettings, request: StepRequest, window: LocalMap
+) -> None:
+    """Fill the maps about the start and the search radius, with room for ways around."""
+    start = request.start_world
+    wanted = request.preferred_world
+    radius = request.search_radius
+    low_x = min(start.x, wanted.x - radius)
+    high_x = max(start.x, wanted.x + radius)
+    low_z = min(start.z, wanted.z - radius)
+    high_z = max(start.z, wanted.z + radius)
+    foot = max(request.foot_half_x, request.foot_half_z)
+    side = max(high_x - low_x, high_z - low_z) + 2.0 * (DETOUR * request.leg_length + foot)
+    cell = settings.cell * request.leg_length
+    n = math.ceil(side / cell)
+    if n > MAP_CELLS:
+        n = MAP_CELLS
+        cell = side / MAP_CELLS
+    toe = settings.toe * request.leg_length
+    fill_maps(
+        env,
+        window,
+        0.5 * (low_x + high_x),
+        0.5 * (low_z + high_z),
+        cell,
+        n,
+        request.foot_half_x + toe,
+        request.foot_half_z + toe,
+        request.foot_yaw,
+    )
+
+
+@kernel
+def place_slices(
+    settings: PlanSettings, request: StepRequest, scratch: PlanScratch, kept: int, floor: float
+) -> int:
+    """Write the levels of the slices, from above, and return how many there are.
+
+    Layer 0 goes over everything. The others lie between the ground and the highest thing on the
+    straight lines to the candidates; what is lower than one slice is always stepped over.
+    """
+    window = scratch.window
+    cell = window.place[2]
+    u = (request.start_world.x - window.place[0]) / cell
+    v = (request.start_world.z - window.place[1]) / cell
+    top = floor
+    for k in range(kept):
+        to_u = (scratch.found.place[k, 0] - window.place[0]) / cell
+        to_v = (scratch.found.place[k, 2] - window.place[1]) / cell
+        top = max(top, highest_on_line(window.highest, window.size[0], u, v, to_u, to_v))
+    limit = min(settings.slice_limit, scratch.grid.level.shape[0] - 1)
+    scratch.grid.level[0] = OVER_ALL
+    scratch.grid.spread[0] = 0
+    thickness = max(settings.slice_thickness * request.step_height, (top - floor) / (limit + 1.0))
+    slices = 1
+    while slices <= limit and floor + thickness * slices < top:
+        slices += 1
+    for layer in range(1, slices):
+        scratch.grid.level[layer] = floor + thickness * (slices - layer)
+        scratch.grid.spread[layer] = 0
+    return slices
+
+
+@kernel
+def plan_top(window: LocalMap, lift: LiftScratch, points: int) -> float:
+    """Return the highest cell under a path in plan."""
+    n = window.size[0]
+    cell = window.place[2]
+    top = -OVER_ALL
+    for k in range(points - 1):
+        u = (lift.plan[k, 0] - window.place[0]) / cell
+        v = (lift.plan[k, 1] - window.place[1]) / cell
+        to_u = (lift.plan[k + 1, 0] - window.place[0]) / cell
+        to_v = (lift.plan[k + 1, 1] - window.place[1]) / cell
+        top = max(top, highest_on_line(window.highest, n, u, v, to_u, to_v))
+    return top
+
+
+@kernel
+def plan_layer(
+    request: StepRequest,
+    window: LocalMap,
+    grid: GridScratch,
+    lift: LiftScratch,
+    layer: int,
+    end: Vec3,
+    row: int,
+    column: int,
+) -> int:
+    """Write the shortest path in plan to a place within a slice; return its points, 0: no way."""
+    n = window.size[0]
+    cell = window.place[2]
+    start = request.start_world
+    u = (start.x - window.place[0]) / cell
+    v = (start.z - window.place[1]) / cell
+    to_u = (end.x - window.place[0]) / cell
+    to_v = (end.z - window.place[1]) / cell
+    if line_of_sight(grid.closed, window.highest, grid.level[layer], n, u, v, to_u, to_v):
+        return straight_plan(lift, start, end)
+    if grid.spread[layer] == 0:
+        spread_wavefront(grid, window.highest, n, layer, int(v), int(u))
+    return plan_around(grid, lift, window.highest, window.place, n, layer, start, end, row, column)
+
+
+@kernel
+def best_pair(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    scratch: PlanScratch,
+    kept: int,
+    slices: int,
+    best: float,
+    path: PathRow,
+) -> float:
+    """Return the score of the best pair, its path written to `path`; `best` is what to beat.
+
+    Places in descending order; for each the way over everything, then the ways around what is
+    higher than a slice, from the top slice down. A pair is left as soon as it cannot win: by its
+    place, by its path in plan, or by its path in 3D.
+    """
+    lift = scratch.lift
+    for k in range(kept):
+        place_score = scratch.found.score[k]
+        if (1.0 - settings.weight_path) * place_score + settings.weight_path <= best:
+            break
+        end = load_vec3(scratch.found.place[k])
+        direct = math.hypot(end.x - request.start_world.x, end.z - request.start_world.z)
+        top = OVER_ALL
+        for layer in range(slices):
+            level = scratch.grid.level[layer]
+            if end.y > level:
+                break
+            if top <= level:
+                continue  # the path of the slice above is already this low
+            row = scratch.found.place_cell[k, 0]
+            column = scratch.found.place_cell[k, 1]
+            points = plan_layer(
+                request, scratch.window, scratch.grid, lift, layer, end, row, column
+            )
+            if points == 0:
+                break  # and no way in the slices below
+            top = plan_top(scratch.window, lift, points)
+            bound = path_score_bound(
+                settings,
+                direct,
+                lift.plan[points - 1, 2],
+                2.0 * request.step_height,
+                plan_bending(lift, points),
+            )
+            if (1.0 - settings.weight_path) * place_score + settings.weight_path * bound <= best:
+                continue
+            scratch.tally[TALLY_PATHS] += 1
+            pair, _ = try_pair(
+                env, settings, request, legs, lift, points, end, place_score, best, scratch.trial
+            )
+            if pair > best:
+                best = pair
+                copy_path(scratch.trial, path)
+                if settings.first_pair:
+                    return best
+    return best
+
+
+@kernel
+def plan_step(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    scratch: PlanScratch,
+    request: StepRequest,
+    path: PathRow,
+) -> tuple[bool, float]:
+    """Plan one foot's step: where it lands and how it gets there.
+
+    First the direct swing to the preferred place itself, against the true shapes: on open ground
+    that is all, and nothing snaps to a grid. Otherwise the maps are filled and pairs of candidate
+    and path compete.
+
+    Args:
+        env: the world.
+        settings: how thoroughly and how carefully.
+        scratch: one thread's memory, with `request.other_foot_count` segments of other legs.
+        request: the step.
+        path: where the path is written; left as it is where none is found.
+
+    Returns:
+        Whether a valid pair was found, and its score in [0, 1]. If not, hold the foot and try again
+        with a larger search radius.
+    """
+    legs = OtherLegs(scratch.other_a, scratch.other_b, scratch.other_radius)
+    for k in range(scratch.tally.shape[0]):
+        scratch.tally[k] = 0
+    start = request.start_world
+    wanted = request.preferred_world
+    wide = request.search_radius + max(request.foot_half_x, request.foot_half_z)
+    crowded = obstacles_near(
+        env,
+        min(start.x, wanted.x) - wide,
+        min(start.z, wanted.z) - wide,
+        max(start.x, wanted.x) + wide,
+        max(start.z, wanted.z) + wide,
+    )
+    level = env.terrain_range[0] == env.terrain_range[1]
+    best = NOTHING
+    kept = 0
+    place_score, y = judge_place(env, settings, request, legs, wanted.x, wanted.z, crowded, level)
+    end = Vec3(wanted.x, y, wanted.z)
+    if place_score >= 0.0:
+        kept = 1
+        points = straight_plan(scratch.lift, start, end)
+        scratch.tally[TALLY_PATHS] += 1
+        best, quality = try_pair(
+            env,
+            settings,
+            request,
+            legs,
+            scratch.lift,
+            points,
+            end,
+            place_score,
+            best,
+            scratch.trial,
+        )
+        if best >= 0.0:
+            copy_path(scratch.trial, path)
+            unhindered = quality >= UNHINDERED and place_score >= settings.open_score
+            if unhindered or settings.first_pair:
+                scratch.tally[TALLY_DIRECT] = 1
+                return True, best
+    window = scratch.window
+    fill_window(env, settings, request, window)
+    close_cells(env, settings, request, legs, window, scratch.grid)
+    cells = list_cells(settings, request, window, scratch.grid, scratch.found)
+    if kept == 1:
+        scratch.found.score[0] = place_score
+        scratch.found.place[0, 0] = end.x
+        scratch.found.place[0, 1] = end.y
+        scratch.found.place[0, 2] = end.z
+        scratch.found.place_cell[0, 0] = int((end.z - window.place[1]) / window.place[2])
+        scratch.found.place_cell[0, 1] = int((end.x - window.place[0]) / window.place[2])
+    kept = judge_candidates(env, settings, request, legs, window, cells, level, scratch.found, kept)
+    slices = place_slices(settings, request, scratch, kept, max(start.y, y))
+    best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
+    scratch.tally[TALLY_CANDIDATES] = kept
+    for layer in range(slices):
+        scratch.tally[TALLY_WAVEFRONTS] += scratch.grid.spread[layer]
+    return best >= 0.0, max(best, 0.0)

@@ -1,0 +1,73 @@
+"""Memory that the planner works in: one for each thread, made once."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from polypod.environment.maps import LocalMap, make_local_map
+from polypod.footprints.settings import PlanSettings
+from polypod.paths.curve import PathRow, path_store
+from polypod.paths.scratch import GridScratch, LiftScratch, grid_scratch, lift_scratch
+
+MAP_CELLS = 70  # most cells a side
+
+# Rows of `PlanScratch.tally`.
+TALLY_DIRECT = 0  # 1: the direct swing ended the search
+TALLY_CANDIDATES = 1
+TALLY_WAVEFRONTS = 2
+TALLY_PATHS = 3  # 3D paths made
+
+
+class CandidateScratch(NamedTuple):
+    """Places a foot may land on; C is the candidate limit and one for the preferred place."""
+
+    cell: NDArray[np.int64]  # [n n, 2] row and column of cells that may accept a foot
+    first_score: NDArray[np.float64]  # [n n] by the maps alone
+    place: NDArray[np.float64]  # [C, 3] world, m; in descending order of score
+    place_cell: NDArray[np.int64]  # [C, 2] row and column
+    score: NDArray[np.float64]  # [C] in [0, 1]
+
+
+class PlanScratch(NamedTuple):
+    """Everything `plan_step` writes besides its answer; the caller fills the other legs."""
+
+    other_a: NDArray[np.float64]  # [S, 3] world, m: ends of the other legs' segments
+    other_b: NDArray[np.float64]  # [S, 3]
+    other_radius: NDArray[np.float64]  # [S] m
+    window: LocalMap
+    grid: GridScratch
+    lift: LiftScratch
+    found: CandidateScratch
+    trial: PathRow  # the path being tried
+    tally: NDArray[np.int64]  # [4] what the last request took, for display and measurements
+
+
+def make_plan_scratch(settings: PlanSettings, other_segments: int) -> PlanScratch:
+    """Return the memory for one thread.
+
+    Args:
+        settings: with the largest candidate and slice limits that will be asked for.
+        other_segments: the most segments of other legs.
+    """
+    n = MAP_CELLS
+    places = settings.candidate_limit + 1
+    return PlanScratch(
+        other_a=np.zeros((other_segments, 3)),
+        other_b=np.zeros((other_segments, 3)),
+        other_radius=np.zeros(other_segments),
+        window=make_local_map(n),
+        grid=grid_scratch(n, settings.slice_limit + 1),
+        lift=lift_scratch(),
+        found=CandidateScratch(
+            cell=np.zeros((n * n, 2), np.int64),
+            first_score=np.zeros(n * n),
+            place=np.zeros((places, 3)),
+            place_cell=np.zeros((places, 2), np.int64),
+            score=np.zeros(places),
+        ),
+        trial=path_store(),
+        tally=np.zeros(4, np.int64),
+    )

@@ -1,0 +1,129 @@
+"""What makes a path impossible: the leg's reach, other legs, speed, and the true shapes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.compute import kernel
+from polypod.environment.table import EnvironmentTable, penetration
+from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.math.hermite import hermite
+from polypod.math.vec3 import distance, load_vec3, mix
+from polypod.paths.curve import PATH_KNOTS, PathRow
+from polypod.paths.scratch import OtherLegs
+
+# The most that a bell-shaped swing exceeds its mean speed.
+PEAK_SPEED = 1.875
+# Samples on each piece of the path in the exact check.
+EXACT_SAMPLES = 3
+
+
+@kernel
+def leg_contact(legs: OtherLegs, s: int, x: float, z: float) -> tuple[float, float]:
+    """Return the distance in plan to leg segment `s` and the segment's height there; m."""
+    a_x = legs.a[s, 0]
+    a_z = legs.a[s, 2]
+    step_x = legs.b[s, 0] - a_x
+    step_z = legs.b[s, 2] - a_z
+    square = step_x * step_x + step_z * step_z
+    u = 0.0
+    if square > 0.0:
+        u = min(max(((x - a_x) * step_x + (z - a_z) * step_z) / square, 0.0), 1.0)
+    height = legs.a[s, 1] + (legs.b[s, 1] - legs.a[s, 1]) * u
+    if square <= 0.0:
+        height = max(legs.a[s, 1], legs.b[s, 1])
+    return math.hypot(x - a_x - step_x * u, z - a_z - step_z * u), height
+
+
+@kernel
+def meets_legs(
+    settings: PlanSettings, request: StepRequest, legs: OtherLegs, path: PathRow
+) -> bool:
+    """Return whether the foot would meet another leg on the path.
+
+    A leg hangs above its sole, so passing beneath another leg is as bad as passing through it. A
+    foot that starts beside another leg may stay as near as it is.
+    """
+    foot = max(request.foot_half_x, request.foot_half_z)
+    start = request.start_world
+    for s in range(request.other_foot_count):
+        clear = legs.radius[s] + foot + settings.leg_gap * request.leg_length
+        x0 = min(legs.a[s, 0], legs.b[s, 0]) - clear
+        x1 = max(legs.a[s, 0], legs.b[s, 0]) + clear
+        z0 = min(legs.a[s, 2], legs.b[s, 2]) - clear
+        z1 = max(legs.a[s, 2], legs.b[s, 2]) + clear
+        at_start, _ = leg_contact(legs, s, start.x, start.z)
+        allowed = min(clear, 0.999 * at_start)
+        for k in range(1, PATH_KNOTS):
+            x = path.point[k, 0]
+            z = path.point[k, 2]
+            if x < x0 or x > x1 or z < z0 or z > z1:
+                continue
+            gap, height = leg_contact(legs, s, x, z)
+            if gap < allowed and height > path.point[k, 1] - clear:
+                return True
+    return False
+
+
+@kernel
+def out_of_reach(settings: PlanSettings, request: StepRequest, path: PathRow) -> bool:
+    """Return whether the path leaves what the leg reaches, or is too long for the time it has.
+
+    Checked at knots and half way between them, the hip moving on as predicted. A foot that starts
+    beyond the margins may come back inside.
+    """
+    if path.length[0] * PEAK_SPEED > request.speed_limit * request.swing_seconds:
+        return True
+    offset = request.effector_offset_touchdown
+    at_start = distance(request.start_world + offset, request.hip_start)
+    most = max(request.reach_max * (1.0 - settings.reach), at_start)
+    at_end = distance(load_vec3(path.point[PATH_KNOTS - 1]) + offset, request.hip_touchdown)
+    most = max(most, min(request.reach_max, at_end))
+    least = min(request.reach_min * (1.0 + settings.reach), at_start)
+    before = load_vec3(path.point[0])
+    for k in range(1, PATH_KNOTS):
+        point = load_vec3(path.point[k])
+        middle = path.fraction[k] - 0.5 * (path.fraction[k] - path.fraction[k - 1])
+        hip = mix(request.hip_start, request.hip_touchdown, middle)
+        reach = distance(mix(before, point, 0.5) + offset, hip)
+        if reach > most or reach < least:
+            return True
+        hip = mix(request.hip_start, request.hip_touchdown, path.fraction[k])
+        reach = distance(point + offset, hip)
+        if reach > most or reach < least:
+            return True
+        before = point
+    return False
+
+
+@kernel
+def deepest(
+    env: EnvironmentTable, settings: PlanSettings, request: StepRequest, path: PathRow, extra: Any
+) -> float:
+    """Return how deep the path goes into true shapes beyond what is accepted; m, 0: not at all.
+
+    What is missing is added to `extra` [PATH_KNOTS] at the knots about it, for a second try. A foot
+    that starts sunk in may come out.
+    """
+    accepted = settings.penetration * request.leg_length
+    sunk, _ = penetration(env, load_vec3(path.point[0]))
+    worst = 0.0
+    for k in range(PATH_KNOTS - 1):
+        span = path.fraction[k + 1] - path.fraction[k]
+        p0 = load_vec3(path.point[k])
+        p1 = load_vec3(path.point[k + 1])
+        m0 = load_vec3(path.tangent[k]) * span
+        m1 = load_vec3(path.tangent[k + 1]) * span
+        for j in range(EXACT_SAMPLES):
+            u = (j + 1.0) / EXACT_SAMPLES
+            depth, _ = penetration(env, hermite(p0, m0, p1, m1, u))
+            excess = depth - accepted
+            if sunk > 0.0 and path.fraction[k] < 0.1:
+                excess -= sunk
+            if excess > 0.0:
+                worst = max(worst, excess)
+                lift = 2.0 * excess + accepted
+                extra[k] = max(extra[k], lift)
+                extra[k + 1] = max(extra[k + 1], lift)
+    return worst
