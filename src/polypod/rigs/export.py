@@ -14,7 +14,7 @@ from polypod.report.record import Recording
 from polypod.rigs.editing import GltfEditor
 from polypod.rigs.fields import Place
 from polypod.rigs.gltf import GltfDocument
-from polypod.rigs.nodes import IntArray, local_parts, read_parents
+from polypod.rigs.nodes import IntArray, local_matrix, local_parts, read_parents
 from polypod.rigs.tracks import RestParts, Track, tracks_of
 
 ANIMATION_NAME = "Polypod walk"
@@ -48,7 +48,7 @@ def glb_bytes(recording: Recording) -> bytes:
     motion_node = _motion_node(document, editor, joints)
     for node in sorted(joints | {motion_node}):
         editor.parts_from_matrix(node)
-    tracks = tracks_of(recording, _rest_parts(document, editor), motion_node)
+    tracks = tracks_of(recording, _rest_parts(document, editor), motion_node, _keyed(document))
     _add_animation(editor, recording, tracks)
     return editor.glb()
 
@@ -78,7 +78,19 @@ def _rest_parts(document: GltfDocument, editor: GltfEditor) -> RestParts:
     parts = [local_parts(place) for place in places]
     translation, rotation, scale = (np.array(column) for column in zip(*parts, strict=True))
     names = tuple(place.text("name") for place in places)
-    return RestParts(read_parents(places), translation, rotation, scale, names)
+    local = np.array([local_matrix(place) for place in places])
+    return RestParts(read_parents(places), local, translation, rotation, scale, names)
+
+
+def _keyed(document: GltfDocument) -> set[tuple[int, str]]:
+    """Return (node, path) for everything that the file's own animations move."""
+    node_count = len(document.root.parts("nodes"))
+    targets = [
+        channel.part("target")
+        for animation in document.root.parts("animations")
+        for channel in animation.parts("channels")
+    ]
+    return {(target.reference("node", node_count), target.text("path")) for target in targets}
 
 
 def _add_animation(editor: GltfEditor, recording: Recording, tracks: list[Track]) -> None:

@@ -28,6 +28,7 @@ from polypod.rigs.nodes import (
 STILL_TRANSLATION = 2e-7
 STILL_ROTATION = 3e-7
 STILL_SCALE = 1e-6
+PATHS = ("translation", "rotation", "scale")
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +36,7 @@ class Track:
     """What one property of one node does."""
 
     node: int
-    path: str  # "translation", "rotation" or "scale"
+    path: str  # one of PATHS
     values: NDArray[np.float32]  # [F, 3], or [F, 4] for a rotation
 
 
@@ -44,6 +45,7 @@ class RestParts:
     """The nodes of the file that is written, as they are when nothing plays."""
 
     parents: IntArray  # [N]
+    local: FloatArray  # [N, 4, 4] the matrices, which may hold more than the three parts can
     translation: FloatArray  # [N, 3]
     rotation: FloatArray  # [N, 4] unit
     scale: FloatArray  # [N, 3]
@@ -70,46 +72,63 @@ def joint_matrices(recording: Recording, row: int) -> FloatArray:
     return posed
 
 
-def tracks_of(recording: Recording, rest: RestParts, motion_node: int) -> list[Track]:
+def tracks_of(
+    recording: Recording, rest: RestParts, motion_node: int, keyed: set[tuple[int, str]]
+) -> list[Track]:
     """Return the tracks of all nodes that move, ancestors first.
 
-    `motion_node` carries the creature through the world; the joints do what the recording says.
+    Args:
+        recording: the walk.
+        rest: the nodes of the file.
+        motion_node: the node that carries the creature through the world.
+        keyed: (node, path) that other animations of the file move. They get a track here even
+            where they rest: Blender, for one, leaves them as the animation before put them.
 
     Raises:
         RigError: a node above a joint has scale zero, so that the joint cannot be placed.
     """
     row_of_node = {int(node): row for row, node in enumerate(recording.morphology.joint_node)}
-    wanted_above = _with_ancestors([*row_of_node, motion_node], rest.parents)
-    size = float(np.ptp(recording.morphology.joint_rest, axis=0).max())
+    needed = _with_ancestors([*row_of_node, motion_node], rest.parents)
+    size = float(np.ptp(recording.morphology.joint_rest, axis=0).max(initial=0.0))
     size = max(size, float(recording.morphology.legs.length.max(initial=0.0)))
-    local = compose(rest.translation, rest.rotation, rest.scale)
     frames = len(recording.time)
     world: dict[int, FloatArray] = {-1: np.tile(np.eye(4), (frames, 1, 1))}
     tracks: list[Track] = []
+    carried = {motion_node}
     for node in parent_first_order(rest.parents):
-        if node not in wanted_above:
+        parent = int(rest.parents[node])
+        if parent in carried:
+            carried.add(node)
+        always = {path for path in PATHS if node in carried and (node, path) in keyed}
+        if node != motion_node and node not in row_of_node:
+            tracks += [_resting_track(node, path, rest, frames) for path in sorted(always)]
+            if node in needed:
+                world[node] = world[parent] @ rest.local[node]
             continue
-        above = world[int(rest.parents[node])]
         if node == motion_node:
-            posed = motion_matrices(recording) @ local[node]
-        elif node in row_of_node:
-            posed = joint_matrices(recording, row_of_node[node])
+            posed = motion_matrices(recording) @ rest.local[node]
         else:
-            world[node] = above @ local[node]
-            continue
-        found, moved = _node_tracks(node, above, posed, rest, size * STILL_TRANSLATION)
-        tracks.extend(found)
-        world[node] = above @ moved
+            posed = joint_matrices(recording, row_of_node[node])
+        found, moved = _node_tracks(
+            node, world[parent], posed, rest, size * STILL_TRANSLATION, always
+        )
+        tracks += found
+        world[node] = world[parent] @ moved
     return tracks
 
 
 def _node_tracks(
-    node: int, above: FloatArray, posed: FloatArray, rest: RestParts, still: float
+    node: int,
+    above: FloatArray,
+    posed: FloatArray,
+    rest: RestParts,
+    still: float,
+    always: set[str],
 ) -> tuple[list[Track], FloatArray]:
     """Return a node's tracks and its local matrices [F, 4, 4] as the file will have them.
 
     `above` and `posed` [F, 4, 4] are world matrices of the parent and of the node itself, `still`
-    the length in metres below which a shift is none.
+    the length in metres below which a shift is none, `always` the paths that get a track anyhow.
     """
     units = np.cbrt(np.abs(np.linalg.det(above[0, :3, :3])))
     if not units > 0.0:
@@ -127,13 +146,21 @@ def _node_tracks(
     }
     tracks, used = [], []
     for path, (values, at_rest, tolerance) in parts.items():
-        rounded = _rounded(values, tolerance)
         if float(np.abs(values - at_rest).max()) <= tolerance:
+            if path in always:
+                tracks.append(_resting_track(node, path, rest, len(values)))
             used.append(np.broadcast_to(at_rest, values.shape))
             continue
+        rounded = _rounded(values, tolerance)
         tracks.append(Track(node, path, rounded))
         used.append(rounded.astype(np.float64))
     return tracks, compose(*used)
+
+
+def _resting_track(node: int, path: str, rest: RestParts, frames: int) -> Track:
+    """Return a track that holds a node's property as it is when nothing plays."""
+    value = np.asarray(getattr(rest, path)[node], np.float32)
+    return Track(node, path, np.broadcast_to(value, (frames, len(value))))
 
 
 def _rounded(values: FloatArray, tolerance: float) -> NDArray[np.float32]:
