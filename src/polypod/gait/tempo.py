@@ -80,15 +80,25 @@ def tempo(
 
     Returns:
         Always a finite period, so that a stopping creature's feet come down; whether the needle
-        turns at all is `needle_turns`'s word. A period is shortened until the stance travel, speed
-        x duty x period, is within its limit: `top_speed` says when that is no longer a walk.
+        turns at all is `needle.needle_turns`'s word. A period is shortened until the stance travel,
+        speed x duty x period, is within its limit: `top_speed` says when that is no longer a walk.
+        A sprawler keeps its swing time then, so its duty falls too, within its range.
     """
     # At rest the slowest walk: the laws have no limit at zero.
     slowest = 1e-3 * math.sqrt(GRAVITY * leg_length)
     animal = natural_tempo(max(speed, slowest), hip_height, leg_length, upright)
-    duty = min(max(animal.duty, duty_low), duty_high)
     period = animal.period if math.isnan(user_period) else user_period
     limit = max(stance_travel_limit, 1e-3 * leg_length)
+    duty = animal.duty
+    if not upright:
+        swing = SPRAWLER_SWING * math.sqrt(leg_length / GRAVITY)
+        duty = 1.0 - swing / period
+        if speed * min(max(duty, duty_low), duty_high) * period > limit:
+            # The longest period whose stance, swing kept and duty clamped, is the limit's.
+            stance = limit / speed
+            period = min(stance / duty_low, max(stance / duty_high, stance + swing))
+            duty = 1.0 - swing / period
+    duty = min(max(duty, duty_low), duty_high)
     if speed * duty * period > limit:
         period = limit / (speed * duty)
     return Tempo(period, duty)
@@ -99,9 +109,3 @@ def top_speed(leg_length: float, duty_low: float, stance_travel_limit: float) ->
     """Return the speed, m/s, beyond which legs would have to cycle faster than any animal's."""
     shortest = SHORTEST_PERIOD * math.sqrt(leg_length / GRAVITY)
     return max(stance_travel_limit, 1e-3 * leg_length) / (duty_low * shortest)
-
-
-@kernel
-def needle_turns(speed: float, feet_in_swing: int) -> bool:
-    """Return whether the cycle goes on: always but for a creature at rest with all feet down."""
-    return speed > 0.0 or feet_in_swing > 0
