@@ -1,13 +1,12 @@
 """The needle: where in its cycle a creature is, and which feet lift and land (P1 3.3).
 
-A creature's rows are arrays [K]: `start` and `extent` are the disks its feet go by now,
-`goal_start` and `goal_extent` the disks they take when they next stand (equal to the former but in
-a transition). In every step a controller
+A creature's rows are arrays [K]: `start` and `extent` are the disks its feet go by now, `in_swing`
+and `stood` what they do. In every step a controller
 
 1. turns the needle, in `step_count` equal parts if it turns far,
 2. lands feet (`land_feet`) before it lifts any, so that feet can change places,
-3. lets standing feet take their new disks (`transition.adopt_disks`),
-4. lifts `next_foot_to_lift` until there is none, by `lift_off`.
+3. gives the standing feet their new disks (`transition.adopt_disks`) if a transition is under way,
+4. lifts `next_foot_to_lift` until there is none, each at its `lift_phase`.
 
 A foot swings from the phase at which it really left (`lift_phase`) to the end of its sector, so
 progress follows the disk, and neither a changed tempo nor a late lift leaves a foot behind.
@@ -24,9 +23,8 @@ from polypod.math.intervals import sector_progress, wrap_phase
 
 # A foot that could not lift on time may still do so in this first share of its sector.
 LATE_LIFT_WINDOW = 0.5
-# A foot whose new disk is under way takes it in mid-swing while this share of the sector is left:
-# less would be a swing several times as fast as its neighbours'.
-LEAST_SWING_LEFT = 0.35
+# A foot that just landed stands for at least this share of its disk's stance before it lifts again.
+LEAST_STANCE = 0.5
 # The needle moves by at most this share of the shortest swing or stance in one part of a step.
 LARGEST_PART = 0.5
 MOST_PARTS = 256
@@ -94,6 +92,7 @@ def land_feet(
     start: FloatArray,
     extent: FloatArray,
     in_swing: BoolArray,
+    stood: FloatArray,
     landed: BoolArray,
 ) -> int:
     """Put down the feet whose sectors the needle has left; return how many.
@@ -101,20 +100,24 @@ def land_feet(
     Args:
         needle: the needle after its turn.
         turn: how far it turned, cycles.
-        start: [K] start of each foot's swing sector.
-        extent: [K] extent of each foot's swing sector.
+        start: [K] start of the sector each foot swings by.
+        extent: [K] its extent.
         in_swing: [K] feet in the air; written.
+        stood: [K] cycles for which each foot has stood; written.
         landed: [K] feet put down by this call; written.
     """
     count = 0
     for k in range(start.shape[0]):
         inside = wrap_phase(needle - start[k])
+        since_end = inside - extent[k] if inside >= extent[k] else inside + 1.0 - extent[k]
         # Inside again after a turn longer than the stance: it landed in between.
-        left = inside >= extent[k] or turn >= inside + 1.0 - extent[k]
-        landed[k] = in_swing[k] and left
+        landed[k] = in_swing[k] and (inside >= extent[k] or turn >= since_end)
         if landed[k]:
             in_swing[k] = False
+            stood[k] = since_end
             count += 1
+        elif not in_swing[k]:
+            stood[k] += turn
     return count
 
 
@@ -150,85 +153,48 @@ def next_foot_to_lift(
     needle: float,
     start: FloatArray,
     extent: FloatArray,
-    goal_start: FloatArray,
-    goal_extent: FloatArray,
     in_swing: BoolArray,
+    stood: FloatArray,
     held: BoolArray,
     minimum_down: int,
     window: float,
 ) -> int:
     """Return the foot that shall lift now, the one due for longest, or -1.
 
-    A standing foot may lift while the needle is in the first `window` of its sector; a foot that
-    missed all of it waits for the next. None lifts that would leave fewer than `minimum_down` feet.
-    A foot whose new disk is waiting, since the needle is within its sector, lifts by that disk if
-    enough of the sector is left; if not it holds its place until the new sector begins.
+    A standing foot may lift while the needle is in the first `window` of its sector, if it has
+    stood for a fair share of its stance (a disk that was just replaced may have its sector right
+    behind a landing). A foot that missed the window waits for the next cycle. None lifts that would
+    leave fewer than `minimum_down` feet.
 
     Args:
         needle: the needle now.
         start: [K] start of the swing sector each foot goes by.
         extent: [K] its extent.
-        goal_start: [K] start of the sector each foot goes by next.
-        goal_extent: [K] its extent.
         in_swing: [K] feet in the air.
+        stood: [K] cycles for which each foot has stood.
         held: [K] feet that must not lift in this step (no place found; the creature stops).
         minimum_down: least number of feet that must stay down.
         window: share of a sector in which a late lift is allowed.
     """
-    if feet_down_count(in_swing) <= minimum_down:
-        return -1
     chosen = -1
+    if feet_down_count(in_swing) <= minimum_down:
+        return chosen
     longest_due = -1.0
     for k in range(start.shape[0]):
-        if in_swing[k] or held[k]:
+        if in_swing[k] or held[k] or stood[k] < LEAST_STANCE * (1.0 - extent[k]):
             continue
-        progress = sector_progress(needle, start[k], extent[k])
-        if progress < 0.0 or progress >= window:
-            continue
-        goal_progress = sector_progress(needle, goal_start[k], goal_extent[k])
-        if goal_progress > 1.0 - LEAST_SWING_LEFT:
-            continue
-        due = progress * extent[k]
-        if due > longest_due:
+        due = wrap_phase(needle - start[k])
+        if due < window * extent[k] and due > longest_due:
             longest_due = due
             chosen = k
     return chosen
 
 
 @kernel
-def lift_off(
-    k: int,
-    needle: float,
-    turn: float,
-    start: FloatArray,
-    extent: FloatArray,
-    goal_start: FloatArray,
-    goal_extent: FloatArray,
-    in_swing: BoolArray,
-) -> float:
-    """Lift a foot, by its new disk if one waits; return the phase at which its swing began.
+def lift_phase(needle: float, turn: float, start: float) -> float:
+    """Return the phase at which a foot's swing began that is lifted now.
 
     A foot that lifts in the very step in which its sector began is on time: its swing began at the
     sector's start, between two steps. Any other begins where the needle is.
-
-    Args:
-        k: the foot, from `next_foot_to_lift`.
-        needle: the needle after its turn.
-        turn: how far it turned in this step, cycles.
-        start: [K] sectors' starts; written.
-        extent: [K] sectors' extents; written.
-        goal_start: [K] the new disks' starts.
-        goal_extent: [K] the new disks' extents.
-        in_swing: [K] feet in the air; written.
     """
-    in_swing[k] = True
-    if sector_progress(needle, goal_start[k], goal_extent[k]) >= 0.0:
-        start[k] = goal_start[k]
-        extent[k] = goal_extent[k]
-    return start[k] if wrap_phase(needle - start[k]) <= turn else needle
-
-
-@kernel
-def needle_turns(speed: float, feet_in_swing: int) -> bool:
-    """Return whether the cycle goes on: always but for a creature at rest with all feet down."""
-    return speed > 0.0 or feet_in_swing > 0
+    return start if wrap_phase(needle - start) <= turn else needle

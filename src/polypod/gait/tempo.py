@@ -80,9 +80,9 @@ def tempo(
 
     Returns:
         Always a finite period, so that a stopping creature's feet come down; whether the needle
-        turns at all is `needle.needle_turns`'s word. A period is shortened until the stance travel,
-        speed x duty x period, is within its limit: `top_speed` says when that is no longer a walk.
-        A sprawler keeps its swing time then, so its duty falls too, within its range.
+        turns at all is the controller's word. A period is shortened until the stance travel, speed
+        x duty x period, is within its limit: `top_speed` says when that is no longer a walk. A
+        sprawler keeps its swing time then, so its duty falls too, within its range.
     """
     # At rest the slowest walk: the laws have no limit at zero.
     slowest = 1e-3 * math.sqrt(GRAVITY * leg_length)

@@ -15,8 +15,6 @@ from polypod.math.intervals import wrap_phase
 
 # Real switches of gait take one to two strides.
 TRANSITION_CYCLES = 1.5
-# A foot that just landed stands for at least this share of its stance, old or new.
-LEAST_STANCE = 0.5
 ALIGNMENTS = 64
 
 
@@ -103,40 +101,32 @@ def approach_disks(
 
 @kernel
 def adopt_disks(
-    needle: float,
     start: FloatArray,
     extent: FloatArray,
     goal_start: FloatArray,
     goal_extent: FloatArray,
     in_swing: BoolArray,
 ) -> int:
-    """Give each standing foot its goal disk; return how many feet still go by another.
+    """Give each standing foot its goal disk; return how many feet swing by another.
 
-    A foot waits until it has stood for a fair share of its stance, or a sector that lies right
-    behind its landing would make it hop. One within whose new sector the needle is then does
-    not jump into the middle of a swing: it begins one late, by the rules of
-    `needle.next_foot_to_lift`, or waits for the next.
+    A foot within whose new sector the needle is does not jump into the middle of a swing: it begins
+    one late, by the rules of `needle.next_foot_to_lift`, or waits for the next.
 
     Args:
-        needle: the needle now.
         start: [K] sectors' starts the feet go by; written.
         extent: [K] sectors' extents the feet go by; written.
         goal_start: [K] starts of the goal disks.
         goal_extent: [K] extents of the goal disks.
         in_swing: [K] feet in the air.
     """
-    others = 0
+    swinging_by_another = 0
     for k in range(start.shape[0]):
-        if start[k] == goal_start[k] and extent[k] == goal_extent[k]:
-            continue
-        stood = wrap_phase(needle - start[k]) - extent[k]
-        fair = LEAST_STANCE * (1.0 - max(extent[k], goal_extent[k]))
-        if not in_swing[k] and stood >= fair:
+        if not in_swing[k]:
             start[k] = goal_start[k]
             extent[k] = goal_extent[k]
-        else:
-            others += 1
-    return others
+        elif start[k] != goal_start[k] or extent[k] != goal_extent[k]:
+            swinging_by_another += 1
+    return swinging_by_another
 
 
 @kernel
