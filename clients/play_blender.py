@@ -1,7 +1,9 @@
-"""Usage: python play_blender.py FILE.glb TIME,TIME,... NODE,NODE,...
+"""Imports a GLB with Blender's own importer and says where nodes are in its last animation.
 
-Imports the file with Blender's own importer (package bpy), plays the last animation and prints JSON:
-positions[time][node] = [x, y, z] in glTF's axes. Needs an environment of its own with bpy in it.
+Usage: python play_blender.py FILE.glb TIME,TIME,... NODE,NODE,...
+
+Prints JSON: positions[time][node] = [x, y, z] in glTF's axes. Runs in the environment that
+install_blender.py makes.
 """
 
 from __future__ import annotations

@@ -169,7 +169,9 @@ def as_gltf_folder(sample: SampleFile, folder: Path, image: bytes) -> Path:
     content = json.loads(json.dumps(sample.json))
     content["buffers"][0]["uri"] = "the%20buffer.bin"
     spare = base64.b64encode(b"spare").decode()
-    content["buffers"].append({"byteLength": 5, "uri": f"data:;base64,{spare}"})
+    content["buffers"].append(
+        {"byteLength": 5, "uri": f"data:application/octet-stream;base64,{spare}"}
+    )
     content["images"] = [{"uri": "skin.png"}]
     content["textures"] = [{"source": 0}]
     path = folder / "rig.gltf"
