@@ -197,10 +197,7 @@ def generate(generator: str, keys: Mapping[str, Any]) -> Ground:
         raise SceneError(
             f"there is no terrain generator {generator!r}; there are {choices(GENERATORS)}"
         )
-    defaults = {
-        name: parameter.default
-        for name, parameter in inspect.signature(GENERATORS[generator]).parameters.items()
-    }
+    defaults = generator_keys(generator)
     for key, value in keys.items():
         if key not in defaults:
             raise SceneError(
@@ -208,6 +205,12 @@ def generate(generator: str, keys: Mapping[str, Any]) -> Ground:
             )
         _judge(generator, key, value, defaults[key])
     return GENERATORS[generator](**keys)
+
+
+def generator_keys(generator: str) -> dict[str, Any]:
+    """Return a generator's keys and their defaults."""
+    parameters = inspect.signature(GENERATORS[generator]).parameters
+    return {name: parameter.default for name, parameter in parameters.items()}
 
 
 def _judge(generator: str, key: str, value: Any, default: Any) -> None:

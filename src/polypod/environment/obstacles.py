@@ -233,10 +233,11 @@ def scatter(
             f"scatter asks for {count} obstacles with a forbidden share of {forbidden_share:g}; "
             "the count must be at least 0 and the share from 0 to 1"
         )
-    if not (x0 <= x1 and z0 <= z1 and np.all(least <= greatest)):
+    ordered = x0 <= x1 and z0 <= z1 and bool(np.all(least <= greatest))
+    if not ordered or max(abs(x0), abs(x1), abs(z0), abs(z1)) > LARGEST or least.min() < SMALLEST:
         raise SceneError(
             "scatter needs area = [x0, z0, x1, z1] with x0 <= x1 and z0 <= z1, "
-            "and size = [least, greatest] in that order"
+            f"and size = [least, greatest] in that order, each at least {SMALLEST:g}"
         )
     random = np.random.default_rng(seed)
     sizes = random.uniform(least, greatest, (count, 3))

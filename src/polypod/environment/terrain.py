@@ -24,7 +24,8 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 
 MOST_SAMPLES = 64_000_000  # 512 MB of heights
-PICTURES = {"L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I;16L": 65535.0, "I": 65535.0}
+# Grey modes of pictures and their white.
+PICTURES = {"1": 1.0, "L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I": 65535.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,8 +100,9 @@ class Terrain:
     ) -> Terrain:
         """Return the terrain whose heights in metres are a two-dimensional .npy file."""
         try:
-            heights = np.load(path, allow_pickle=False)
-        except (OSError, ValueError, EOFError) as error:
+            # Mapped, so that a header that promises too much costs no memory.
+            heights = np.load(path, mmap_mode="r", allow_pickle=False)
+        except Exception as error:  # what a broken file raises is not written down anywhere
             raise SceneError(f"{path}: no .npy heightmap can be read ({error})") from None
         if not isinstance(heights, np.ndarray) or heights.dtype.kind not in "fiu":
             raise SceneError(f"{path}: a heightmap must be an array of real numbers")
@@ -213,15 +215,13 @@ def _read_grey(path: str | Path) -> FloatArray:
     """Return a grey picture's values [rows, columns] from 0 (black) to 1 (white)."""
     try:
         with Image.open(path) as picture:
-            if picture.size[0] * picture.size[1] > MOST_SAMPLES:
-                raise SceneError(f"{path}: a picture of more than {MOST_SAMPLES} pixels")
-            if picture.mode == "1":
-                return np.asarray(picture, dtype=np.float64)
-            if picture.mode not in PICTURES:
-                raise SceneError(
-                    f"{path}: the picture's mode is {picture.mode}; it must be grey, 8 or 16 bits"
-                )
-            white = PICTURES[picture.mode]
-            return np.asarray(picture, dtype=np.float64) / white
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+            mode, pixels = picture.mode, picture.size[0] * picture.size[1]
+            values = np.asarray(picture, dtype=np.float64) if mode in PICTURES else None
+    except Exception as error:  # what a broken file raises is not written down anywhere
         raise SceneError(f"{path}: no picture can be read ({error})") from None
+    if values is None or pixels > MOST_SAMPLES:
+        raise SceneError(
+            f"{path}: the picture has mode {mode} and {pixels} pixels; "
+            f"it must be grey, of 8 or 16 bits, with at most {MOST_SAMPLES} pixels"
+        )
+    return values / PICTURES[mode]

@@ -1,0 +1,262 @@
+"""The scene file: terrain, obstacles, creatures and pushes in one TOML."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from polypod.environment.environment import Environment
+from polypod.environment.generators import GENERATORS, generator_keys
+from polypod.environment.obstacles import (
+    LARGEST,
+    MOST_HULL_POINTS,
+    SHAPES,
+    SMALLEST,
+    Obstacle,
+    from_yaw,
+    scatter,
+)
+from polypod.environment.scene_values import SceneTable, shown
+from polypod.environment.terrain import Terrain, generated
+from polypod.errors import SceneError, choices
+
+Made = TypeVar("Made")
+
+MOST_THINGS = 100_000  # obstacles, or creatures
+MOST_WAYPOINTS = 10_000
+LARGEST_TURN = 1e4  # rad
+FASTEST = 1e3  # m/s
+LATEST = 1e6  # s
+# Keys of the format that this version refuses: of obstacles that move and of meshes.
+LATER = ("file", "velocity", "path", "speed")
+
+
+@dataclass(frozen=True)
+class CreatureSpec:
+    """Some creatures of one kind, as a scene asks for them; None where it says nothing.
+
+    `leg`, `spine`, `forward`, `height` and `body_height` mean what the command line's options of
+    the same names mean. `position` is x, z in metres, `heading` radians from +Z toward +X, `speed`
+    metres per second, `path` waypoints x, z in metres.
+    """
+
+    rig: str
+    leg: tuple[str, ...] = ()
+    spine: tuple[str, ...] = ()
+    forward: str | None = None
+    height: float | None = None
+    body_height: float | None = None
+    count: int = 1
+    position: tuple[float, float] | None = None
+    heading: float | None = None
+    gait: str | None = None
+    speed: float | None = None
+    path: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class PushSpec:
+    """A change of a creature's velocity (m/s, world) at a time (s).
+
+    `creature` counts single creatures, in the scene's order.
+    """
+
+    creature: int
+    time: float
+    velocity: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What a scene file says. Obstacles are in its order, scattered ones after."""
+
+    path: Path
+    terrain: Terrain
+    obstacles: tuple[Obstacle, ...] = ()
+    creatures: tuple[CreatureSpec, ...] = ()
+    pushes: tuple[PushSpec, ...] = ()
+
+    def environment(self) -> Environment:
+        """Return the place to walk in."""
+        return Environment(self.terrain, self.obstacles)
+
+
+def read_scene(path: str | Path) -> Scene:
+    """Read a scene file.
+
+    Args:
+        path: a TOML file; files that it names are found from its own folder.
+
+    Returns:
+        The scene, every value judged.
+
+    Raises:
+        SceneError: the file, or one that it names, cannot be read or used; one sentence with file,
+            place and the valid choices.
+    """
+    path = Path(path)
+    try:
+        values = tomllib.loads(path.read_bytes().decode("utf-8"))
+    except OSError as error:
+        raise SceneError(f"{path}: the scene cannot be read ({error.strerror or error})") from None
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"{path}: the scene is no valid TOML ({error})") from None
+    top = SceneTable(str(path), values, ("terrain", "obstacle", "scatter", "creature", "push"))
+    terrain = _terrain(path, top.values["terrain"]) if "terrain" in top else Terrain.flat()
+    obstacles = [_obstacle(place, entry) for place, entry in _entries(top, "obstacle")]
+    for place, entry in _entries(top, "scatter"):
+        obstacles += _scatter(place, entry, terrain)
+    creatures = tuple(_creature(place, entry) for place, entry in _entries(top, "creature"))
+    number = sum(creature.count for creature in creatures) if creatures else 1
+    for what, much in (("obstacles", len(obstacles)), ("creatures", number)):
+        if much > MOST_THINGS:
+            raise SceneError(f"{path}: {much} {what} are too many; the most is {MOST_THINGS}")
+    pushes = tuple(_push(place, entry, number) for place, entry in _entries(top, "push"))
+    return Scene(path, terrain, tuple(obstacles), creatures, pushes)
+
+
+def _entries(top: SceneTable, key: str) -> list[tuple[str, Any]]:
+    """Return each [[key]] with its place in words."""
+    entries = top.values.get(key, [])
+    if not isinstance(entries, list):
+        raise SceneError(
+            f"{top.place} has [{key}] = {shown(entries)}; write [[{key}]], once for each"
+        )
+    return [(f"{top.place}: [[{key}]] number {i + 1}", entry) for i, entry in enumerate(entries)]
+
+
+def _within(place: str, make: Callable[[], Made]) -> Made:
+    """Return what `make` makes; an error of it says the place first."""
+    try:
+        return make()
+    except SceneError as error:
+        raise SceneError(f"{place}: {error}") from None
+
+
+def _terrain(path: Path, values: Any) -> Terrain:
+    place = f"{path}: [terrain]"
+    if isinstance(values, dict) and "generator" in values:
+        generator = values["generator"]
+        if generator not in tuple(GENERATORS):
+            raise SceneError(
+                f"{place} has generator = {shown(generator)}; it is one of {choices(GENERATORS)}"
+            )
+        table = SceneTable(place, values, ("generator", *generator_keys(generator)))
+        keys = {key: value for key, value in table.values.items() if key != "generator"}
+        return _within(place, lambda: generated(generator, **keys))
+    table = SceneTable(
+        place, values, ("heightmap", "cell", "relief", "origin", "water", "generator")
+    )
+    if "heightmap" not in table:
+        raise SceneError(f"{place} needs a heightmap (a file) or a generator")
+    file = path.parent / table.text("heightmap")
+    cell = table.number("cell", None, SMALLEST, LARGEST)
+    origin = table.numbers("origin", "x z", (0.0, 0.0), -LARGEST, LARGEST)
+    water = path.parent / table.text("water") if "water" in table else None
+    suffix = file.suffix.lower()
+    if suffix in (".tif", ".tiff"):
+        raise SceneError(
+            f"{place}: GeoTIFF heightmaps are not supported in this version; use .npy or .png"
+        )
+    if suffix == ".npy":
+        if "relief" in table:
+            raise SceneError(f"{place} has relief, which is for .png: .npy heights are metres")
+        return _within(place, lambda: Terrain.from_npy(file, cell, origin, water))
+    if suffix == ".png":
+        relief = table.number("relief", None, 0.0, LARGEST)
+        return _within(place, lambda: Terrain.from_png(file, cell, relief, origin, water))
+    raise SceneError(f"{place} has heightmap = {shown(file.name)}; it must be a .npy or .png file")
+
+
+def _obstacle(place: str, values: Any) -> Obstacle:
+    table = SceneTable(
+        place,
+        values,
+        ("name", "shape", "size", "points", "position", "yaw", "rotation", "forbidden", *LATER),
+    )
+    shape = table.text("shape")
+    if shape == "mesh":
+        raise SceneError(
+            f"{place}: meshes are not supported in this version; the shapes are {choices(SHAPES)}"
+        )
+    if shape not in SHAPES:
+        table.fail("shape", f"one of {choices(SHAPES)}")
+    for key in LATER:
+        if key in table:
+            raise SceneError(
+                f"{place} has {key}: obstacles that move and meshes are not supported in this "
+                "version; leave it out"
+            )
+    if "yaw" in table and "rotation" in table:
+        raise SceneError(f"{place} has both yaw and rotation; leave one out")
+    if (shape == "hull") == ("size" in table) or (shape != "hull") == ("points" in table):
+        raise SceneError(f"{place} has the shape {shape}: a hull has points, all others a size")
+    name = table.text("name", " ").strip()
+    position = table.numbers("position", "x y z", None, -LARGEST, LARGEST)
+    rotation = from_yaw(table.number("yaw", 0.0, -LARGEST_TURN, LARGEST_TURN))
+    if "rotation" in table:
+        rotation = table.numbers("rotation", "x y z w", None, -1.01, 1.01)  # type: ignore[assignment]
+    forbidden = table.flag("forbidden", False)
+    if shape == "hull":
+        points = table.rows("points", "x y z", 4, MOST_HULL_POINTS)
+        return _within(place, lambda: Obstacle.hull(points, position, rotation, forbidden, name))
+    x, y, z = table.numbers("size", "x y z", None, SMALLEST, LARGEST)
+    centre = (position[0], position[1], position[2])
+    return _within(place, lambda: Obstacle(shape, (x, y, z), centre, rotation, forbidden, name))
+
+
+def _scatter(place: str, values: Any, terrain: Terrain) -> tuple[Obstacle, ...]:
+    table = SceneTable(place, values, ("name", "count", "area", "size", "seed", "forbidden_share"))
+    count = table.whole("count", None, 0, MOST_THINGS)
+    area = table.numbers("area", "x0 z0 x1 z1", None, -LARGEST, LARGEST)
+    size = table.rows("size", "x y z", 2, 2)
+    seed = table.whole("seed", 0, 0, 2**63 - 1)
+    share = table.number("forbidden_share", 0.0, 0.0, 1.0)
+    name = table.text("name", "crate")
+    return _within(place, lambda: scatter(terrain, count, area, size, seed, share, name))
+
+
+def _creature(place: str, values: Any) -> CreatureSpec:
+    table = SceneTable(place, values, CreatureSpec.__dataclass_fields__)
+    forwards = ("+x", "-x", "+y", "-y", "+z", "-z")
+    if "forward" in table and table.text("forward") not in forwards:
+        table.fail("forward", f"one of {choices(forwards)}")
+
+    def size(key: str) -> float | None:
+        return table.number(key, None, SMALLEST, LARGEST) if key in table else None
+
+    x, z = table.numbers("position", "x z", (0.0, 0.0), -LARGEST, LARGEST)
+    path = table.rows("path", "x z", 2, MOST_WAYPOINTS, ())
+    if any(abs(value) > LARGEST for point in path for value in point):
+        table.fail("path", f"waypoints within {LARGEST:g} m of the origin")
+    return CreatureSpec(
+        rig=table.text("rig"),
+        leg=table.texts("leg"),
+        spine=table.texts("spine"),
+        forward=table.text("forward") if "forward" in table else None,
+        height=size("height"),
+        body_height=size("body_height"),
+        count=table.whole("count", 1, 1, MOST_THINGS),
+        position=(x, z) if "position" in table else None,
+        heading=(
+            table.number("heading", None, -LARGEST_TURN, LARGEST_TURN)
+            if "heading" in table
+            else None
+        ),
+        gait=table.text("gait") if "gait" in table else None,
+        speed=table.number("speed", None, 0.0, FASTEST) if "speed" in table else None,
+        path=tuple((point[0], point[1]) for point in path),
+    )
+
+
+def _push(place: str, values: Any, creatures: int) -> PushSpec:
+    table = SceneTable(place, values, PushSpec.__dataclass_fields__)
+    x, y, z = table.numbers("velocity", "x y z", None, -FASTEST, FASTEST)
+    return PushSpec(
+        creature=table.whole("creature", 0, 0, creatures - 1),
+        time=table.number("time", None, 0.0, LATEST),
+        velocity=(x, y, z),
+    )
