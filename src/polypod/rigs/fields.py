@@ -9,6 +9,7 @@ from typing import Any
 from polypod.errors import RigError
 
 MISSING = object()
+LARGEST_WHOLE = 1 << 53  # what every JSON reader can hold; nothing in a file is larger
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class Place:
     def error(self, text: str, key: str = "") -> RigError:
         """Return an error whose sentence starts with the file and the place."""
         place = ".".join(part for part in (self.path, key) if part)
-        return RigError(f"{self.file}: {place} {text}." if place else f"{self.file}: {text}")
+        return RigError(f"{self.file}: {place} {text}" if place else f"{self.file}: {text}")
 
     def has(self, key: str) -> bool:
         """Return whether the field is there at all."""
@@ -38,7 +39,7 @@ class Place:
         if found is MISSING and default is not None:
             return default
         number = whole(found)
-        if number is None or number < 0:
+        if number is None or not 0 <= number < LARGEST_WHOLE:
             raise self.error(f"must be a whole number, not {shown(found)}", key)
         if below is not None and number >= below:
             raise self.error(f"is {number}, but must be below {below}", key)
