@@ -241,12 +241,22 @@ def random_walk(morphology: Morphology, frames: int = 40, far: float = 20.0) -> 
             arm = morphology.joint_rest[joint] - morphology.joint_rest[parent]
         position[:, joint] = base_position + rotate_all(base_rotation, arm)
         rotation[:, joint] = _product(base_rotation, turn)
-    none = np.zeros((frames, 0))
-    flat = np.zeros((frames, 0, 3))
+    # The writer does not look at feet and obstacles.
+    feet, obstacles = (frames, len(morphology.foot_name)), (frames, 0)
     return Recording(
-        morphology, time, body_position, body_rotation, position, rotation, flat, flat,
-        none.astype(np.bool_), none.astype(np.int64), flat, np.zeros((frames, 0, 4)),
-    )  # fmt: skip
+        morphology=morphology,
+        time=time,
+        body_position=body_position,
+        body_rotation=body_rotation,
+        joint_position=position,
+        joint_rotation=rotation,
+        foot_position=np.zeros((*feet, 3)),
+        foot_target=np.zeros((*feet, 3)),
+        foot_stance=np.zeros(feet, np.bool_),
+        foot_support=np.zeros(feet, np.int64),
+        obstacle_position=np.zeros((*obstacles, 3)),
+        obstacle_rotation=np.zeros((*obstacles, 4)),
+    )
 
 
 def rotate_all(rotation: np.ndarray, vectors: np.ndarray) -> np.ndarray:

@@ -83,6 +83,12 @@ def test_bad_samplers_are_named(times: list[float], values: Any, mode: str, expe
         hip_heights(sample, [0.5])
 
 
+def test_a_rotation_of_length_zero_is_named() -> None:
+    sample = animated("rotation", [0.0], [[0, 0, 0, 0]])
+    with pytest.raises(RigError, match="rotation of length zero"):
+        hip_heights(sample, [0.0])
+
+
 def test_no_such_animation() -> None:
     with pytest.raises(RigError, match="animations has no number -1: there are 0"):
         Playback(two_joint_rig().document())

@@ -99,7 +99,10 @@ class Playback:
         weight = ((held - keys[left]) / span)[:, None]
         sampled = INTERPOLATIONS[mode](values, left, right, weight, span[:, None])
         if path == "rotation":
-            sampled = sampled / np.linalg.norm(sampled, axis=1, keepdims=True)
+            sizes = np.linalg.norm(sampled, axis=1, keepdims=True)
+            if float(sizes.min(initial=1.0)) < 1e-30:
+                raise sampler.error("holds a rotation of length zero", "output")
+            sampled = sampled / sizes
         return sampled
 
 
