@@ -1,8 +1,8 @@
-"""About which axis each joint of a leg bends: read from the rest pose, guessed where it is straight.
+"""About which axis each joint of a leg bends: read from the rest pose, guessed where straight.
 
-Below 7 degrees the bend at rest is a modeller's noise. Guesses: erect legs bend about the left-right
-axis, knees forward, the elbows of fore legs back, further joints in turn the other way; sprawling
-legs bend with the knee up.
+Below 7 degrees the bend at rest is a modeller's noise. Guesses: erect legs bend about the
+left-right axis, knees forward, the elbows of fore legs back, further joints in turn the other way;
+sprawling legs bend with the knee up.
 """
 
 from __future__ import annotations

@@ -36,23 +36,23 @@ def limit_excess(ik: IkTable, leg: int, rotation: FloatArray) -> float:
             continue
         side = _across(axis)
         turned = own @ side
-        bend = ik.bend_rest[leg, joint] + math.atan2(
-            float(np.cross(side, turned) @ axis), float(side @ turned)
-        )
+        turn = math.atan2(float(np.cross(side, turned) @ axis), float(side @ turned))
         off_axis = math.atan2(
             float(np.linalg.norm(np.cross(axis, own @ axis))), float(axis @ own @ axis)
         )
-        low = ik.bend_low[leg, joint] - bend
-        high = bend - ik.bend_high[leg, joint]
-        # A bend is an angle: one that lies below the range may be a whole turn above it.
+        low = ik.turn_low[leg, joint] - turn
+        high = turn - ik.turn_high[leg, joint]
+        # A turn is an angle: one that lies below the range may be a whole turn above it.
         if low > math.pi:
             low, high = low - 2.0 * math.pi, high + 2.0 * math.pi
+        if high > math.pi:
+            low, high = low + 2.0 * math.pi, high - 2.0 * math.pi
         worst = max(worst, low, high, off_axis)
     return max(worst, 0.0)
 
 
 def hip_excess(ik: IkTable, leg: int, matrix: FloatArray) -> float:
-    """Return how far the hip [3, 3] is outside its cone and its twist, radians; at most 0 inside."""
+    """Return how far a hip's rotation [3, 3] is outside cone and twist, radians; <= 0 inside."""
     turned = matrix @ matrix_from_quaternion(ik.hip_stance[leg]).T
     limb = ik.limb_axis[leg]
     flexion_axis = ik.flexion_axis[leg]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from polypod.compute import kernel
-from polypod.ik.solve import aimed_hip, fold_for_reach, folded_chord, hip_strain, offset_from_hip
+from polypod.ik.solve import fold_for_reach, hip_for, hip_strain, offset_from_hip
 from polypod.ik.types import IkTable
 from polypod.math.vec3 import Vec3, dot, length, load_vec3, mix, normalized
 
@@ -14,11 +14,10 @@ PROBE = 1e-4
 
 
 @kernel
-def within_reach(ik: IkTable, leg: int, offset: Vec3, longest: float) -> Vec3:
-    """Return an offset from the hip with its length brought between shortest and `longest`."""
-    size = length(offset)
-    reach = min(max(size, ik.shortest[leg]), longest)
-    return normalized(offset, load_vec3(ik.limb_axis[leg])) * reach
+def with_length_in(offset: Vec3, shortest: float, longest: float, fallback: Vec3) -> Vec3:
+    """Return an offset with its length brought between two bounds, m; `fallback` directs zero."""
+    reach = min(max(length(offset), shortest), longest)
+    return normalized(offset, fallback) * reach
 
 
 @kernel
@@ -28,23 +27,26 @@ def direction_strain(ik: IkTable, leg: int, offset: Vec3) -> float:
     `offset` leads from the hip to the effector, m; its length is taken within the leg's reach.
     """
     reach = min(max(length(offset), ik.shortest[leg]), ik.longest[leg])
-    chord = folded_chord(ik, leg, fold_for_reach(ik, leg, reach))
+    _, chord = fold_for_reach(ik, leg, reach)
     direction = normalized(offset, load_vec3(ik.limb_axis[leg]))
-    return hip_strain(ik, leg, aimed_hip(ik, leg, chord, direction))
+    return hip_strain(ik, leg, hip_for(ik, leg, chord, direction))
 
 
 @kernel
-def reach_shift_within(ik: IkTable, leg: int, effector_body: Vec3, longest: float) -> Vec3:
-    """Return about the least displacement that brings a target within `longest` and the limits.
+def reach_shift(ik: IkTable, leg: int, effector_body: Vec3) -> Vec3:
+    """Return about the least displacement that brings a target within the leg's reach and limits.
 
     Zero where `solve_leg` meets the target exactly. Body frame, m.
     """
-    wanted = offset_from_hip(ik, leg, effector_body)
+    wanted = offset_from_hip(effector_body, load_vec3(ik.hip_rest[leg]), ik.chain_length[leg])
+    limb = load_vec3(ik.limb_axis[leg])
+    shortest = ik.shortest[leg]
+    longest = ik.longest[leg]
     size = length(wanted)
     offset = wanted
     # A rounding's worth of slack, so that a target already moved is left alone.
-    if size > longest * (1.0 + 1e-9) or size < ik.shortest[leg] * (1.0 - 1e-9):
-        offset = within_reach(ik, leg, wanted, longest)
+    if size > longest * (1.0 + 1e-9) or size < shortest * (1.0 - 1e-9):
+        offset = with_length_in(wanted, shortest, longest, limb)
     strain = direction_strain(ik, leg, offset)
     if strain <= 1.0:
         return offset - wanted
@@ -59,26 +61,17 @@ def reach_shift_within(ik: IkTable, leg: int, effector_body: Vec3, longest: floa
         # Far outside the limits slopes mislead: no step is longer than a fifth of the leg.
         step = slope * ((1.0 - 1e-6 - strain) / max(steepness, 1e-12))
         cap = 0.2 * ik.chain_length[leg] / max(length(step), 1e-300)
-        offset = within_reach(ik, leg, offset + step * min(cap, 1.0), longest)
+        offset = with_length_in(offset + step * min(cap, 1.0), shortest, longest, limb)
         strain = direction_strain(ik, leg, offset)
         if strain <= 1.0:
             return offset - wanted
     stance = load_vec3(ik.effector_stance[leg]) - load_vec3(ik.hip_rest[leg])
-    inside = within_reach(ik, leg, stance, longest)
+    inside = with_length_in(stance, shortest, longest, limb)
     outside = offset
     for _ in range(BISECTIONS):
-        middle = within_reach(ik, leg, mix(inside, outside, 0.5), longest)
+        middle = with_length_in(mix(inside, outside, 0.5), shortest, longest, limb)
         if direction_strain(ik, leg, middle) <= 1.0:
             inside = middle
         else:
             outside = middle
     return inside - wanted
-
-
-@kernel
-def reach_shift(ik: IkTable, leg: int, effector_body: Vec3) -> Vec3:
-    """Return about the least displacement that brings a target within the leg's reach and limits.
-
-    Zero where `solve_leg` meets the target exactly. Body frame, m.
-    """
-    return reach_shift_within(ik, leg, effector_body, ik.longest[leg])

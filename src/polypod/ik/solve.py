@@ -26,19 +26,19 @@ from polypod.math.quat import (
 )
 from polypod.math.vec3 import Vec3, cross, dot, length, load_vec3, normalized, store_vec3
 
-# A secant step squares the error, and the table starts within about 1e-4 of the answer.
+# The table starts within about 1e-6 of the answer: one or two steps are the rule.
 SECANT_STEPS = 6
+REACH_TOLERANCE = 1e-13
 POLISH_STEPS = 8
-# Below this outward share of the direction the leg plane's heading is held back: straight under the
-# hip a heading means nothing and would spin the leg.
-HEADING_FLOOR = 0.3
+# Nearer than twice this to the vertical line under the hip, in leg lengths, the heading of a leg's
+# plane is held back: straight under the hip a heading means nothing and would spin the leg.
+HEADING_FLOOR = 0.25
 
 
 @kernel
-def bend_at(ik: IkTable, leg: int, joint: int, fold: float) -> float:
-    """Return the bend of a hinge at a fold, radians, inside its range."""
-    bend = ik.bend_base[leg, joint] + fold * ik.bend_slope[leg, joint]
-    return min(max(bend, ik.bend_low[leg, joint]), ik.bend_high[leg, joint])
+def hinge_turn(base: float, slope: float, fold: float, low: float, high: float) -> float:
+    """Return a hinge's turn away from the rest at a fold, radians, inside its range."""
+    return min(max(base + fold * slope, low), high)
 
 
 @kernel
@@ -47,41 +47,55 @@ def folded_chord(ik: IkTable, leg: int, fold: float) -> Vec3:
     rotation = Quat(0.0, 0.0, 0.0, 1.0)
     chord = load_vec3(ik.bone_rest[leg, 0])
     for joint in range(1, ik.joint_count[leg]):
-        turn = bend_at(ik, leg, joint, fold) - ik.bend_rest[leg, joint]
+        turn = hinge_turn(
+            ik.turn_base[leg, joint],
+            ik.turn_slope[leg, joint],
+            fold,
+            ik.turn_low[leg, joint],
+            ik.turn_high[leg, joint],
+        )
         rotation = rotation * from_axis_angle(load_vec3(ik.axis[leg, joint]), turn)
         chord = chord + rotate(rotation, load_vec3(ik.bone_rest[leg, joint]))
     return chord
 
 
 @kernel
-def fold_for_reach(ik: IkTable, leg: int, reach: float) -> float:
-    """Return the fold at which hip and effector are `reach` metres apart.
+def fold_for_reach(ik: IkTable, leg: int, reach: float) -> tuple[float, Vec3]:
+    """Return the fold at which hip and effector are `reach` metres apart, and the way between them.
 
-    `reach` lies between the leg's shortest and longest; the table's cell gives both ends of a
-    secant that then closes on the exact fold.
+    `reach` lies between the leg's shortest and longest. A cubic through the table's four nearest
+    samples gives a start and a slope from which a secant closes on the exact fold.
     """
     cells = ik.fold_of_reach.shape[1] - 1
     span = ik.longest[leg] - ik.shortest[leg]
     if span <= 0.0:
-        return ik.fold_of_reach[leg, cells]
+        fold = ik.fold_of_reach[leg, cells]
+        return fold, folded_chord(ik, leg, fold)
     place = min(max((reach - ik.shortest[leg]) / span, 0.0), 1.0) * cells
     cell = min(int(place), cells - 1)
     near = ik.fold_of_reach[leg, cell]
     far = ik.fold_of_reach[leg, cell + 1]
-    fold = near + (far - near) * (place - cell)
-    slope = (far - near) * cells / span
-    error = length(folded_chord(ik, leg, fold)) - reach
-    for _ in range(SECANT_STEPS):
-        if abs(error) <= 1e-14 * ik.chain_length[leg]:
-            break
+    rise = far - near
+    rise_near = 0.5 * (far - ik.fold_of_reach[leg, cell - 1]) if cell > 0 else rise
+    rise_far = 0.5 * (ik.fold_of_reach[leg, cell + 2] - near) if cell + 2 <= cells else rise
+    u = place - cell
+    v = 1.0 - u
+    fold = near * v + far * u + u * v * (v * (rise_near - rise) - u * (rise_far - rise))
+    slope = rise + (v - u) * (v * (rise_near - rise) - u * (rise_far - rise))
+    slope = (slope - u * v * (rise_near + rise_far - 2.0 * rise)) * cells / span
+    chord = folded_chord(ik, leg, fold)
+    error = length(chord) - reach
+    steps = 0
+    while abs(error) > REACH_TOLERANCE * ik.chain_length[leg] and steps < SECANT_STEPS:
         step = -error * slope
-        fold_next = fold + step
-        error_next = length(folded_chord(ik, leg, fold_next)) - reach
-        if error_next != error:
-            slope = step / (error_next - error)
-        fold = fold_next
-        error = error_next
-    return fold
+        fold += step
+        chord = folded_chord(ik, leg, fold)
+        before = error
+        error = length(chord) - reach
+        if error != before:
+            slope = step / (error - before)
+        steps += 1
+    return fold, chord
 
 
 @kernel
@@ -109,8 +123,8 @@ def plane_frame(direction: Vec3, normal: Vec3) -> Quat:
 
 
 @kernel
-def plane_normal(ik: IkTable, leg: int, direction: Vec3) -> Vec3:
-    """Return the normal that the leg's plane should have for a unit direction of the effector.
+def plane_normal(ik: IkTable, leg: int, offset: Vec3) -> Vec3:
+    """Return the normal that the leg's plane should have for an effector at `offset` from the hip.
 
     An erect leg keeps its rest normal. A sprawler's is carried about Y with the target's heading,
     which fades where the target nears the vertical line under the hip or passes behind it.
@@ -120,11 +134,12 @@ def plane_normal(ik: IkTable, leg: int, direction: Vec3) -> Vec3:
         return normal
     plan_x = ik.plan_stance[leg, 0]
     plan_z = ik.plan_stance[leg, 1]
-    outward = direction.x * plan_x + direction.z * plan_z
-    sideways = direction.x * plan_z - direction.z * plan_x
-    if outward < 2.0 * HEADING_FLOOR:
+    outward = offset.x * plan_x + offset.z * plan_z
+    sideways = offset.x * plan_z - offset.z * plan_x
+    floor = HEADING_FLOOR * ik.chain_length[leg]
+    if outward < 2.0 * floor:
         rising = max(outward, 0.0)
-        outward = HEADING_FLOOR + rising * rising / (4.0 * HEADING_FLOOR)
+        outward = floor + rising * rising / (4.0 * floor)
     size = math.sqrt(outward * outward + sideways * sideways)
     cosine = outward / size
     sine = sideways / size
@@ -132,10 +147,24 @@ def plane_normal(ik: IkTable, leg: int, direction: Vec3) -> Vec3:
 
 
 @kernel
-def aimed_hip(ik: IkTable, leg: int, chord: Vec3, direction: Vec3) -> Quat:
-    """Return the hip's rotation that turns the folded leg's `chord` to the unit `direction`."""
-    chord_frame = plane_frame(normalized(chord, direction), load_vec3(ik.normal_rest[leg]))
-    return plane_frame(direction, plane_normal(ik, leg, direction)) * conjugate(chord_frame)
+def aimed_hip(chord: Vec3, normal_rest: Vec3, direction: Vec3, normal: Vec3) -> Quat:
+    """Return the hip's rotation that turns the folded leg's `chord` to the unit `direction`.
+
+    The plane's normal goes from `normal_rest` to as near `normal` as the direction allows.
+    """
+    chord_frame = plane_frame(normalized(chord, direction), normal_rest)
+    return plane_frame(direction, normal) * conjugate(chord_frame)
+
+
+@kernel
+def hip_for(ik: IkTable, leg: int, chord: Vec3, direction: Vec3) -> Quat:
+    """Return the hip's rotation that brings a folded leg's end where it is wanted.
+
+    `chord` is the way from hip to effector while the hip is not turned, m; `direction` the unit
+    direction in which that way should lead.
+    """
+    normal = plane_normal(ik, leg, direction * length(chord))
+    return aimed_hip(chord, load_vec3(ik.normal_rest[leg]), direction, normal)
 
 
 @kernel
@@ -212,7 +241,13 @@ def pose_leg(
     point = load_vec3(ik.hip_rest[leg])
     for joint in range(ik.joint_count[leg]):
         if joint > 0:
-            turn = bend_at(ik, leg, joint, fold) - ik.bend_rest[leg, joint]
+            turn = hinge_turn(
+                ik.turn_base[leg, joint],
+                ik.turn_slope[leg, joint],
+                fold,
+                ik.turn_low[leg, joint],
+                ik.turn_high[leg, joint],
+            )
             rotation = rotation * from_axis_angle(load_vec3(ik.axis[leg, joint]), turn)
         store_quat(rotation_out[joint], rotation)
         store_vec3(point_out[joint], point)
@@ -245,19 +280,19 @@ def polish(ik: IkTable, leg: int, target: Vec3, rotation_out: Any, point_out: An
     for _ in range(POLISH_STEPS):
         for joint in range(count - 1, 0, -1):
             before = load_quat(rotation_out[joint - 1])
-            axis = rotate(before, load_vec3(ik.axis[leg, joint]))
             own = conjugate(before) * load_quat(rotation_out[joint])
-            rest_axis = load_vec3(ik.axis[leg, joint])
-            sine = own.x * rest_axis.x + own.y * rest_axis.y + own.z * rest_axis.z
-            bend = ik.bend_rest[leg, joint] + 2.0 * math.atan2(sine, own.w)
+            axis = load_vec3(ik.axis[leg, joint])
+            sine = own.x * axis.x + own.y * axis.y + own.z * axis.z
+            turn = 2.0 * math.atan2(sine, own.w)
+            axis = rotate(before, axis)
             pivot = load_vec3(point_out[joint])
             reached = load_vec3(point_out[count]) - pivot
             wanted = target - pivot
             reached = reached - axis * dot(reached, axis)
             wanted = wanted - axis * dot(wanted, axis)
-            turn = math.atan2(dot(cross(reached, wanted), axis), dot(reached, wanted))
-            bent = min(max(bend + turn, ik.bend_low[leg, joint]), ik.bend_high[leg, joint])
-            turn_from(ik, leg, joint, from_axis_angle(axis, bent - bend), rotation_out, point_out)
+            more = math.atan2(dot(cross(reached, wanted), axis), dot(reached, wanted))
+            best = min(max(turn + more, ik.turn_low[leg, joint]), ik.turn_high[leg, joint])
+            turn_from(ik, leg, joint, from_axis_angle(axis, best - turn), rotation_out, point_out)
         pivot = load_vec3(point_out[0])
         reached = load_vec3(point_out[count])
         hip = load_quat(rotation_out[0])
@@ -268,14 +303,13 @@ def polish(ik: IkTable, leg: int, target: Vec3, rotation_out: Any, point_out: An
 
 
 @kernel
-def offset_from_hip(ik: IkTable, leg: int, effector_body: Vec3) -> Vec3:
+def offset_from_hip(effector_body: Vec3, hip_body: Vec3, chain_length: float) -> Vec3:
     """Return the way from the hip to a target, a far one drawn in so that no square overflows."""
-    far = 1e9 * ik.chain_length[leg]
-    hip = load_vec3(ik.hip_rest[leg])
+    far = 1e9 * chain_length
     return Vec3(
-        min(max(effector_body.x - hip.x, -far), far),
-        min(max(effector_body.y - hip.y, -far), far),
-        min(max(effector_body.z - hip.z, -far), far),
+        min(max(effector_body.x - hip_body.x, -far), far),
+        min(max(effector_body.y - hip_body.y, -far), far),
+        min(max(effector_body.z - hip_body.z, -far), far),
     )
 
 
@@ -299,13 +333,14 @@ def solve_leg(
         The distance from the effector to the target, m.
     """
     hip = load_vec3(ik.hip_rest[leg])
-    offset = offset_from_hip(ik, leg, effector_body)
+    offset = offset_from_hip(effector_body, hip, ik.chain_length[leg])
     direction = normalized(offset, load_vec3(ik.limb_axis[leg]))
     reach = min(max(length(offset), ik.shortest[leg]), ik.longest[leg])
-    fold = fold_for_reach(ik, leg, reach)
-    aimed = aimed_hip(ik, leg, folded_chord(ik, leg, fold), direction)
-    allowed = limited_hip(ik, leg, aimed)
-    pose_leg(ik, leg, allowed, fold, rotation_out, point_out)
-    if hip_strain(ik, leg, aimed) > 1.0:
+    fold, chord = fold_for_reach(ik, leg, reach)
+    aimed = hip_for(ik, leg, chord, direction)
+    if hip_strain(ik, leg, aimed) <= 1.0:
+        pose_leg(ik, leg, aimed, fold, rotation_out, point_out)
+    else:
+        pose_leg(ik, leg, limited_hip(ik, leg, aimed), fold, rotation_out, point_out)
         polish(ik, leg, hip + direction * reach, rotation_out, point_out)
     return length(load_vec3(point_out[ik.joint_count[leg]]) - effector_body)

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from polypod.ik.hinges import Hinges, find_hinges, plan_direction
-from polypod.ik.reach import reach_shift_within
-from polypod.ik.solve import aimed_hip, fold_for_reach, folded_chord, plane_frame, plane_normal
+from polypod.ik.reach import direction_strain, reach_shift
+from polypod.ik.solve import fold_for_reach, hip_for, plane_frame, plane_normal
 from polypod.ik.types import IkTable
 from polypod.math.quat import rotate
-from polypod.math.vec3 import Vec3, length, load_vec3
+from polypod.math.vec3 import Vec3, load_vec3
 from polypod.morphology.types import FloatArray, LegTable
 
 __all__ = ["IkTable", "build_ik_table", "guesses"]
@@ -23,9 +23,13 @@ HIP_LIMIT_SPRAWLING = np.radians([90.0, 60.0, 60.0])
 # Of the longest that the hinges allow: turns between frames grow fast beyond.
 LONGEST = 0.97
 COMFORTABLE = 0.94
-# A tenth of a leg's length may turn a joint 45 degrees at most: rad per leg length.
-TURN_RATE_MOST = math.radians(450.0)
+# A target moved by a tenth of the leg's length may turn no joint more than 45 degrees: rad per leg
+# length. The hip also turns with the target's heading and has less to spare.
+HINGE_RATE_MOST = math.radians(450.0)
+HIP_RATE_MOST = math.radians(250.0)
+LEAN_MOST = 0.4
 FOLD_SAMPLES = 2048
+BISECTIONS = 44
 REACH_CELLS = 128
 TRAVEL_STEP = 0.01
 TRAVEL_DIRECTIONS = 12
@@ -34,7 +38,7 @@ TRAVEL_DIRECTIONS = 12
 def build_ik_table(legs: LegTable) -> IkTable:
     """Return the bones, hinges, limits, fold and reach of every leg.
 
-    Overrides: `bend_limit` is a range about the rest bend, positive where the joint bends more;
+    Overrides: `bend_limit` is a range about the rest bend, positive where the joint turns more;
     `hip_limit` the half ranges of flexion, sideways swing and twist about the stance. Angles in
     radians, lengths in metres, body frame.
     """
@@ -64,7 +68,7 @@ def guesses(ik: IkTable, foot_name: Sequence[str]) -> list[str]:
 
 
 def _way(ik: IkTable, leg: int, joint: int) -> str:
-    """Say where a joint's point goes when its hinge bends."""
+    """Say where a joint's point goes when its hinge turns."""
     bone = ik.bone_rest[leg, joint]
     x, y, z = -np.cross(ik.axis[leg, joint], bone)
     size = np.abs([x, y, z])
@@ -86,10 +90,10 @@ def _empty_table(legs: LegTable) -> IkTable:
         bone_rest=vectors.copy(),
         axis=vectors.copy(),
         bend_rest=per_joint.copy(),
-        bend_base=per_joint.copy(),
-        bend_slope=per_joint.copy(),
-        bend_low=per_joint.copy(),
-        bend_high=per_joint.copy(),
+        turn_base=per_joint.copy(),
+        turn_slope=per_joint.copy(),
+        turn_low=per_joint.copy(),
+        turn_high=per_joint.copy(),
         guessed=np.zeros((leg_count, joint_most), dtype=np.bool_),
         chain_length=per_leg.copy(),
         shortest=per_leg.copy(),
@@ -121,17 +125,16 @@ def _fill_leg(ik: IkTable, legs: LegTable, leg: int) -> None:
     ik.bone_rest[leg, :count] = bones
     ik.axis[leg, :count] = hinges.axis
     ik.bend_rest[leg, :count] = hinges.bend_rest
-    ik.bend_base[leg, :count] = hinges.base
-    ik.bend_slope[leg, :count] = hinges.slope
+    ik.turn_base[leg, :count] = hinges.base - hinges.bend_rest
+    ik.turn_slope[leg, :count] = hinges.slope
     ik.guessed[leg, :count] = hinges.guessed
-    low = np.minimum(0.0, hinges.bend_rest)
-    high = np.maximum(BEND_MOST, hinges.bend_rest)
-    asked = hinges.bend_rest[:, None] + np.sort(legs.bend_limit[leg, :count], axis=1)
-    low = np.where(np.isnan(asked[:, 0]), low, asked[:, 0])
-    high = np.where(np.isnan(asked[:, 1]), high, asked[:, 1])
-    low[0] = high[0] = 0.0
-    ik.bend_low[leg, :count] = low
-    ik.bend_high[leg, :count] = high
+    asked = np.sort(legs.bend_limit[leg, :count], axis=1)
+    low = np.where(np.isnan(asked[:, 0]), np.minimum(-hinges.bend_rest, 0.0), asked[:, 0])
+    high = np.where(
+        np.isnan(asked[:, 1]), np.maximum(BEND_MOST - hinges.bend_rest, 0.0), asked[:, 1]
+    )
+    ik.turn_low[leg, 1:count] = low[1:]
+    ik.turn_high[leg, 1:count] = high[1:]
     default = HIP_LIMIT_ERECT if legs.upright[leg] else HIP_LIMIT_SPRAWLING
     ik.hip_limit[leg] = np.where(np.isnan(legs.hip_limit[leg]), default, legs.hip_limit[leg])
     ik.chain_length[leg] = np.linalg.norm(bones, axis=1).sum()
@@ -144,49 +147,61 @@ def _fill_reach(ik: IkTable, leg: int, hinges: Hinges) -> None:
     """Sample the fold from its longest on, as long as folding shortens, and invert it."""
     count = int(ik.joint_count[leg])
     length_all = float(ik.chain_length[leg])
-    low = ik.bend_low[leg, :count]
-    high = ik.bend_high[leg, :count]
+    base = ik.turn_base[leg, :count]
+    low = ik.turn_low[leg, :count]
+    high = ik.turn_high[leg, :count]
     folding = hinges.slope > 0.0
     if not folding.any():
-        reach = float(np.linalg.norm(sampled_chords(ik, leg, np.zeros((1, count)))[0]))
+        unfolded = np.clip(base, low, high)
+        reach = float(np.linalg.norm(sampled_chords(ik, leg, unfolded[None])[0]))
         ik.shortest[leg] = ik.longest[leg] = ik.comfortable[leg] = reach
         return
     folds = np.linspace(
-        float(((low - hinges.base)[folding] / hinges.slope[folding]).min()),
-        float(((high - hinges.base)[folding] / hinges.slope[folding]).max()),
+        float(((low - base)[folding] / hinges.slope[folding]).min()),
+        float(((high - base)[folding] / hinges.slope[folding]).max()),
         FOLD_SAMPLES,
     )
-    bends = np.clip(hinges.base + folds[:, None] * hinges.slope, low, high)
-    chords = sampled_chords(ik, leg, bends)
+    turns = np.clip(base + folds[:, None] * hinges.slope, low, high)
+    chords = sampled_chords(ik, leg, turns)
     reach = np.linalg.norm(chords, axis=1)
     first = int(np.flatnonzero(reach >= reach.max() * (1.0 - 1e-12))[-1])
     drop = -np.diff(reach[first:]) / length_all
-    turned = np.abs(np.diff(bends[first:], axis=0)).max(axis=1)
+    turned = np.abs(np.diff(turns[first:], axis=0)).max(axis=1)
     direction = chords[first:] / reach[first:, None]
     swing = np.linalg.norm(np.diff(direction, axis=0), axis=1)
     swing = np.hypot(swing, drop * length_all / reach[first + 1 :])
+    # An effector far out of the leg's plane would spin the plane about the way to it.
+    aslant = np.abs(direction[1:] @ hinges.normal) > LEAN_MOST
     # Near full stretch turns are fast too, but there the longest reach is what bounds them.
     stretched = reach[first + 1 :] > 0.75 * reach[first]
-    good = (drop > 0.0) & (stretched | (np.maximum(turned, swing) <= TURN_RATE_MOST * drop))
+    slow = (turned <= HINGE_RATE_MOST * drop) & (swing <= HIP_RATE_MOST * drop) & ~aslant
+    good = (drop > 0.0) & (stretched | slow)
     last = first + (int(np.argmin(good)) if not good.all() else len(good))
     longest = LONGEST * reach[first]
     ik.longest[leg] = longest
     ik.comfortable[leg] = COMFORTABLE * reach[first]
     ik.shortest[leg] = min(float(reach[last]), 0.999 * longest)
     wanted = np.linspace(float(ik.shortest[leg]), longest, REACH_CELLS + 1)
-    ik.fold_of_reach[leg] = np.interp(
-        wanted, reach[first : last + 1][::-1], folds[first : last + 1][::-1]
-    )
+    place = np.searchsorted(-reach[first : last + 1], -wanted)
+    long_end = folds[first + np.maximum(place - 1, 0)]
+    short_end = folds[first + np.minimum(place, last - first)]
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (long_end + short_end)
+        turns = np.clip(base + middle[:, None] * hinges.slope, low, high)
+        too_long = np.linalg.norm(sampled_chords(ik, leg, turns), axis=1) > wanted
+        long_end = np.where(too_long, middle, long_end)
+        short_end = np.where(too_long, short_end, middle)
+    ik.fold_of_reach[leg] = 0.5 * (long_end + short_end)
 
 
-def sampled_chords(ik: IkTable, leg: int, bends: FloatArray) -> FloatArray:
-    """Return the ways [S, 3] from hip to effector for bends [S, n], the hip not turned."""
-    chord = np.tile(ik.bone_rest[leg, 0], (len(bends), 1))
-    turned = np.tile(np.eye(3), (len(bends), 1, 1))
-    for joint in range(1, bends.shape[1]):
+def sampled_chords(ik: IkTable, leg: int, turns: FloatArray) -> FloatArray:
+    """Return the ways [S, 3] from hip to effector for hinge turns [S, n], the hip not turned."""
+    chord = np.tile(ik.bone_rest[leg, 0], (len(turns), 1))
+    turned = np.tile(np.eye(3), (len(turns), 1, 1))
+    for joint in range(1, turns.shape[1]):
         x, y, z = ik.axis[leg, joint]
         spin = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        angle = (bends[:, joint] - ik.bend_rest[leg, joint])[:, None, None]
+        angle = turns[:, joint, None, None]
         turned = turned @ (np.eye(3) + np.sin(angle) * spin + (1.0 - np.cos(angle)) * (spin @ spin))
         chord = chord + turned @ ik.bone_rest[leg, joint]
     return chord
@@ -223,10 +238,10 @@ def _fill_stance(ik: IkTable, leg: int) -> None:
         offset, size = np.array([0.0, -1.0, 0.0]), 1.0
     direction = Vec3(*(offset / size))
     reach = min(max(size, float(ik.shortest[leg])), float(ik.longest[leg]))
-    fold = fold_for_reach(ik, leg, reach)
-    frame = plane_frame(direction, plane_normal(ik, leg, direction))
+    fold, chord = fold_for_reach(ik, leg, reach)
+    frame = plane_frame(direction, plane_normal(ik, leg, direction * reach))
     ik.fold_stance[leg] = fold
-    ik.hip_stance[leg] = aimed_hip(ik, leg, folded_chord(ik, leg, fold), direction)
+    ik.hip_stance[leg] = hip_for(ik, leg, chord, direction)
     ik.limb_axis[leg] = direction
     ik.flexion_axis[leg] = rotate(frame, Vec3(0.0, 1.0, 0.0))
 
@@ -234,28 +249,29 @@ def _fill_stance(ik: IkTable, leg: int) -> None:
 def _fill_travel(ik: IkTable, leg: int) -> None:
     """Fill in how far the effector may travel straight at the stance's height."""
     stance = load_vec3(ik.effector_stance[leg])
+    centre = stance + reach_shift(ik, leg, stance)
     comfortable = float(ik.comfortable[leg])
-    centre = stance + reach_shift_within(ik, leg, stance, comfortable)
+    offset = np.subtract(centre, ik.hip_rest[leg])
+    offset *= min(1.0, comfortable / max(float(np.linalg.norm(offset)), 1e-300))
     step = TRAVEL_STEP * float(ik.chain_length[leg])
     travel = []
     for i in range(TRAVEL_DIRECTIONS):
         angle = math.pi * i / TRAVEL_DIRECTIONS
-        along = Vec3(math.sin(angle), 0.0, math.cos(angle))
+        along = np.array([math.sin(angle), 0.0, math.cos(angle)])
         half = 0.0
-        while _reaches(ik, leg, centre, along, half + step, comfortable):
+        while _both_ends_reach(ik, leg, offset, along * (half + step)):
             half += step
         travel.append(2.0 * half)
     ik.stance_travel[leg] = travel[0]
     ik.stance_travel_least[leg] = min(travel)
 
 
-def _reaches(
-    ik: IkTable, leg: int, centre: Vec3, along: Vec3, half: float, comfortable: float
-) -> bool:
-    """Say whether both ends of a straight travel about a place are within reach and limits."""
-    slack = 1e-6 * float(ik.chain_length[leg])
-    for sign in (half, -half):
-        shift = reach_shift_within(ik, leg, centre + along * sign, comfortable)
-        if length(shift) > slack:
+def _both_ends_reach(ik: IkTable, leg: int, centre: FloatArray, half: FloatArray) -> bool:
+    """Say whether both ends of a straight travel about an offset from the hip are within reach."""
+    for offset in (centre + half, centre - half):
+        size = float(np.linalg.norm(offset))
+        if not ik.shortest[leg] <= size <= ik.comfortable[leg] * (1.0 + 1e-9):
+            return False
+        if direction_strain(ik, leg, Vec3(*offset.tolist())) > 1.0:
             return False
     return True

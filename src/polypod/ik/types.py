@@ -10,10 +10,11 @@ from polypod.morphology.types import BoolArray, FloatArray, IntArray
 class IkTable(NamedTuple):
     """The K legs of a morphology; M is the most joints any leg has, S the samples of the fold.
 
-    Joint 0 is the hip, a ball; every further joint is a hinge about `axis`, and a hinge's *bend* is
-    the signed angle about it between the bone before and the bone after, 0 when straight. One
-    number, the *fold*, bends a whole leg: hinge j to clip(bend_base + fold * bend_slope, bend_low,
-    bend_high). Offsets are from the hip's pivot. Rotations are relative to the rest; body frame.
+    Joint 0 is the hip, a ball; every further joint is a hinge about `axis`. A hinge's *bend* is the
+    signed angle about it between the bone before and the bone after, 0 when straight; its *turn* is
+    the bend less the bend at rest. One number, the *fold*, bends a whole leg: hinge j turns by
+    turn_base + fold * turn_slope, clipped to turn_low and turn_high. Rotations are relative to the
+    rest; body frame.
     """
 
     joint_count: IntArray  # [K]
@@ -21,10 +22,10 @@ class IkTable(NamedTuple):
     bone_rest: FloatArray  # [K, M, 3] m, from joint i's pivot to the next or to the effector
     axis: FloatArray  # [K, M, 3] unit, hinge axes at rest; zero for the hip
     bend_rest: FloatArray  # [K, M] rad
-    bend_base: FloatArray  # [K, M] rad
-    bend_slope: FloatArray  # [K, M] rad
-    bend_low: FloatArray  # [K, M] rad
-    bend_high: FloatArray  # [K, M] rad
+    turn_base: FloatArray  # [K, M] rad, at fold 0
+    turn_slope: FloatArray  # [K, M] rad per unit of fold
+    turn_low: FloatArray  # [K, M] rad
+    turn_high: FloatArray  # [K, M] rad
     guessed: BoolArray  # [K, M] the hinge is straight at rest, so its axis was guessed
     chain_length: FloatArray  # [K] m, hip to effector along the bones
     shortest: FloatArray  # [K] m, least distance from hip to effector
