@@ -62,7 +62,11 @@ class SampleFile:
 def pack_glb(
     content: dict[str, Any], binary: bytes, extra: tuple[tuple[int, bytes], ...] = ()
 ) -> bytes:
-    text = json.dumps(content).encode()
+    return pack_text(json.dumps(content), binary, extra)
+
+
+def pack_text(content: str, binary: bytes, extra: tuple[tuple[int, bytes], ...] = ()) -> bytes:
+    text = content.encode()
     chunks = [(0x4E4F534A, text + b" " * (-len(text) % 4))]
     if binary:
         chunks.append((0x004E4942, binary))

@@ -15,6 +15,7 @@ from sample_rigs import (
     morphology_of,
     nasty_rig,
     pack_glb,
+    pack_text,
     random_walk,
     two_joint_rig,
 )
@@ -152,6 +153,50 @@ def test_samplers_are_as_promised() -> None:
             assert (np.einsum("fi,fi->f", values[1:], values[:-1]) > 0.0).all()
     # A joint rigid on its parent whose place in the file is right gets no channel for its scale.
     assert (1, "scale") not in moved
+
+
+def test_what_other_clips_move_has_a_track() -> None:
+    """Blender leaves what has no track as the clip before put it."""
+    sample = nasty_rig()
+    sampler = dict(sample.json["animations"][0]["samplers"][0])
+    sampler["output"] = sample.accessor([[1, 1, 1], [2, 2, 2]])
+    targets = [(3, "scale"), (7, "scale"), (7, "translation"), (8, "scale"), (10, "translation")]
+    sample.json["animations"].append(
+        {
+            "channels": [{"sampler": 0, "target": {"node": n, "path": p}} for n, p in targets],
+            "samplers": [sampler],
+        }
+    )
+    recording = random_walk(morphology_of(sample.document()))
+    data = glb_bytes(recording)
+    animation = GltfDocument.from_bytes(data, "out.glb").json["animations"][-1]
+    keyed = [(c["target"]["node"], c["target"]["path"]) for c in animation["channels"]]
+    assert len(set(keyed)) == len(keyed)
+    # All but the lamp, which is no part of the creature.
+    assert set(targets) - set(keyed) == {(10, "translation")}
+    assert_lands(recording, data)
+
+
+def test_joints_land_below_a_joint_of_uneven_scale() -> None:
+    sample = nasty_rig()
+    sample.json["nodes"][7]["scale"] = [1.0, 3.0, 0.5]
+    recording = random_walk(morphology_of(sample.document()))
+    assert_lands(recording, glb_bytes(recording))
+
+
+def test_json_as_deep_as_can_be_read_is_written_or_refused() -> None:
+    sample = two_joint_rig()
+    for depth in (100, 400, 900, 990):
+        sample.finish()
+        content = json.loads(json.dumps(sample.json))
+        text = json.dumps(content).replace('"hip"', '"hip", "extras": ' + "[" * depth + "]" * depth)
+        try:
+            document = GltfDocument.from_bytes(pack_text(text, sample.binary), "deep.glb")
+            data = glb_bytes(random_walk(morphology_of(document), frames=2))
+        except RigError:
+            assert depth > 500
+        else:
+            assert b"[" * depth in data
 
 
 def test_a_still_creature_in_its_rest_pose_moves_only_its_motion_node() -> None:

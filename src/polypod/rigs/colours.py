@@ -58,7 +58,7 @@ class ColourReader:
     def _material(self, primitive: Place) -> Place:
         materials = self.root.parts("materials")
         index = primitive.reference("material", len(materials))
-        return materials[index] if index >= 0 else primitive.part("no material")
+        return materials[index] if index >= 0 else Place(primitive.file, "", {})
 
     @staticmethod
     def _material_factor(material: Place) -> FloatArray:

@@ -122,7 +122,7 @@ def load_buffers(
     for index, place in enumerate(root.parts("buffers")):
         length = place.integer("byteLength")
         if place.has("uri"):
-            content = resolve_uri(place, folder)
+            content = resolve_uri(place, folder)[:length]
         elif index == 0 and binary is not None:
             content = binary
         else:

@@ -8,7 +8,6 @@ nodes that must move.
 from __future__ import annotations
 
 import base64
-import copy
 import json
 import struct
 from typing import Any
@@ -30,9 +29,16 @@ class GltfEditor:
     """A copy of a document's JSON to which nodes, accessors and animations are added."""
 
     def __init__(self, document: GltfDocument):
-        """Copy the JSON and embed what lies in outside files."""
+        """Copy the JSON and embed what lies in outside files.
+
+        Raises:
+            RigError: the JSON is nested so deeply that it cannot be written again.
+        """
         self.document = document
-        self.json: dict[str, Any] = copy.deepcopy(document.json)
+        try:
+            self.json: dict[str, Any] = json.loads(json.dumps(document.json, allow_nan=False))
+        except RecursionError:
+            raise document.root.error("is nested too deeply to be written again") from None
         self.binary = bytearray(self._embed_buffers())
         self._embed_images()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,9 @@ from polypod.rigs.fields import Place
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+
+# Positions [V, 3], joints [V, W] and weights [V, W] of a primitive.
+Vertices: TypeAlias = tuple[FloatArray, IntArray, FloatArray]
 
 TRIANGLES = 4
 
@@ -84,9 +87,10 @@ def read_geometry(root: Place, reader: AccessorReader) -> list[list[Geometry]]:
     Raises:
         RigError: attributes of wrong shapes, not finite, or indices out of range.
     """
+    vertices: dict[str, Vertices] = {}  # primitives of one mesh often share them
     return [
         [
-            _read_primitive(place, reader)
+            _read_primitive(place, reader, vertices)
             for place in mesh.parts("primitives")
             if place.integer("mode", TRIANGLES) == TRIANGLES
             and place.part("attributes").has("POSITION")
@@ -120,14 +124,19 @@ def place_geometry(
     return shown
 
 
-def _read_primitive(place: Place, reader: AccessorReader) -> Geometry:
+def _read_primitive(
+    place: Place, reader: AccessorReader, vertices: dict[str, Vertices]
+) -> Geometry:
     attributes = place.part("attributes")
-    positions = reader.read(attributes.integer("POSITION", below=len(reader.accessors)))
-    if positions.shape[1:] != (3,):
-        raise attributes.error("must have type VEC3", "POSITION")
-    positions = positions.astype(np.float64)
-    _refuse_not_finite(attributes, positions, "POSITION")
-    joints, weights = _read_weights(attributes, reader, len(positions))
+    key = repr(sorted(attributes.value.items(), key=str))
+    if key not in vertices:
+        positions = reader.read(attributes.integer("POSITION", below=len(reader.accessors)))
+        if positions.shape[1:] != (3,):
+            raise attributes.error("must have type VEC3", "POSITION")
+        positions = positions.astype(np.float64)
+        _refuse_not_finite(attributes, positions, "POSITION")
+        vertices[key] = (positions, *_read_weights(attributes, reader, len(positions)))
+    positions, joints, weights = vertices[key]
     return Geometry(positions, _read_triangles(place, reader, positions), joints, weights, place)
 
 
