@@ -12,6 +12,8 @@ from client_runs import blender_positions, three_positions, validator_errors
 from PIL import Image
 from sample_rigs import as_gltf_folder, morphology_of, nasty_rig, random_walk, two_joint_rig
 
+from polypod.morphology.builtin import NAMES
+from polypod.morphology.load import load_rig
 from polypod.report.record import Recording
 from polypod.rigs.export import write_glb
 from polypod.rigs.gltf import GltfDocument
@@ -76,6 +78,22 @@ def test_real_rigs_in_node(name: str, shared_rig: Callable[[str], Path], tmp_pat
     before, after = validator_errors([source, path])
     assert all(after[code] <= before.get(code, 0) for code in after)
     assert worst_miss(three_positions, path, recording) < TOLERANCE
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_built_in_creatures_in_node(name: str, tmp_path: Path) -> None:
+    recording = random_walk(load_rig(name), frames=30, far=5.0)
+    path = tmp_path / "walk.glb"
+    write_glb(recording, path)
+    assert validator_errors([path]) == [{}]
+    assert worst_miss(three_positions, path, recording) < TOLERANCE
+
+
+def test_built_in_spider_in_blender(tmp_path: Path) -> None:
+    recording = random_walk(load_rig("spider"), frames=30, far=5.0)
+    path = tmp_path / "walk.glb"
+    write_glb(recording, path)
+    assert worst_miss(blender_positions, path, recording) < TOLERANCE
 
 
 def test_two_joints_in_blender(tmp_path: Path) -> None:

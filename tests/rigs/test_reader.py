@@ -404,7 +404,9 @@ def test_outside_buffers_stay_in_the_folder(uri: str, expected: str, tmp_path: P
 # ---- properties
 
 
-@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(
+    max_examples=400, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 @given(
     source=st.sampled_from([SMALL, NASTY]),
     changes=st.lists(
@@ -435,7 +437,9 @@ JSON_VALUES = st.one_of(
 )
 
 
-@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(
+    max_examples=400, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 @given(pick=st.lists(st.tuples(st.integers(0, 1 << 30), JSON_VALUES), min_size=1, max_size=3))
 def test_any_json_value_in_any_place_gives_a_document_or_an_error(
     pick: list[tuple[int, Any]],
@@ -469,7 +473,7 @@ def _places(part: Any) -> Any:
 unit_floats = st.floats(-1.0, 1.0)
 
 
-@settings(deadline=None)
+@settings(deadline=None, derandomize=True)
 @given(
     turn=st.lists(unit_floats, min_size=4, max_size=4),
     shift=st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3),

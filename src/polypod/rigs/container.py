@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from polypod.errors import RigError
-from polypod.rigs.fields import Place
+from polypod.rigs.fields import Place, shown
 
 MAGIC = b"glTF"
 JSON_CHUNK = 0x4E4F534A
@@ -101,7 +101,7 @@ def check_header(root: Place) -> None:
     """
     version = root.part("asset").text("version")
     if not version.startswith("2."):
-        raise root.error(f"must be a version 2, not {version!r}", "asset.version")
+        raise root.error(f"must be a version 2, not {shown(version)}", "asset.version")
     for extension in root.texts("extensionsRequired"):
         if extension in UNREADABLE:
             raise root.error(
@@ -146,7 +146,9 @@ def resolve_uri(place: Place, folder: Path | None) -> bytes:
     try:
         return path.read_bytes()
     except OSError as fault:
-        raise place.error(f"names {uri!r}, which cannot be read: {fault.strerror}", "uri") from None
+        raise place.error(
+            f"names {shown(uri)}, which cannot be read: {fault.strerror}", "uri"
+        ) from None
 
 
 def _decode_data_uri(place: Place, uri: str) -> bytes:
@@ -169,11 +171,11 @@ def outside_file(place: Place, uri: str, folder: Path | None) -> Path:
     """
     if folder is None:
         raise place.error(
-            f"names the outside file {uri!r}, but there is no folder to look in", "uri"
+            f"names the outside file {shown(uri)}, but there is no folder to look in", "uri"
         )
     relative = urllib.parse.unquote(uri)
     if "\0" in relative or "://" in relative:
-        raise place.error(f"names {uri!r}, but only files beside the rig can be read", "uri")
+        raise place.error(f"names {shown(uri)}, but only files beside the rig can be read", "uri")
     try:
         path = (folder / relative).resolve()
         inside = path.is_relative_to(folder.resolve())
@@ -181,7 +183,7 @@ def outside_file(place: Place, uri: str, folder: Path | None) -> Path:
     except (OSError, ValueError):  # such as a name that is too long
         inside, present = True, False
     if not inside:
-        raise place.error(f"names {uri!r}, which lies outside of the rig's folder", "uri")
+        raise place.error(f"names {shown(uri)}, which lies outside of the rig's folder", "uri")
     if not present:
-        raise place.error(f"names {uri!r}, which is not in {folder}", "uri")
+        raise place.error(f"names {shown(uri)}, which is not in {folder}", "uri")
     return path
