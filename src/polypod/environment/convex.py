@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 ROUND_SIDES = 24  # of a polygon around a circle
-# How far such a polygon reaches beyond its circle, in radii.
+# How far such a polygon reaches beyond its circle, in radii, and how much further in than its own
+# the sides of the polygon inside the circle lie.
 ROUND_SLACK = 1.0 / math.cos(math.pi / ROUND_SIDES) - 1.0
+ROUND_SAG = 1.0 - math.cos(math.pi / ROUND_SIDES)
 
 
 def rotation_matrix(rotation: tuple[float, ...]) -> FloatArray:

@@ -12,8 +12,8 @@ import math
 from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
-from polypod.environment.convex import ROUND_SLACK
-from polypod.environment.shapes import BOX, SPHERE, VERTICAL, reach_of_footprint
+from polypod.environment.convex import ROUND_SAG, ROUND_SLACK
+from polypod.environment.shapes import BOX, CYLINDER, SPHERE, VERTICAL, reach_of_footprint
 from polypod.environment.table import EnvironmentTable, bucket_line, first_met
 
 if TYPE_CHECKING:
@@ -38,9 +38,10 @@ INSIDE = 4  # the cell lies in it
 COVERED = 5  # every foot in the cell lies in it
 SIDE_COLUMNS = 6
 
-# A row of LocalMap.tops: a plane y = base + slope_x x + slope_z z, and how much it rises or falls
-# from a cell's centre to the farthest point of the farthest foot in it.
-SLOPE_X, SLOPE_Z, BASE, SPREAD = 0, 1, 2, 3
+# A row of LocalMap.tops: a plane y = base + slope_x x + slope_z z; how much it rises from a cell's
+# centre to the farthest point of the farthest foot in it; how much it falls, at most.
+SLOPE_X, SLOPE_Z, BASE, SPREAD, FALL = 0, 1, 2, 3, 4
+TOP_COLUMNS = 5
 
 
 @kernel
@@ -235,7 +236,12 @@ def _set_tops(
             window.tops[count, SLOPE_X] = slope_x
             window.tops[count, SLOPE_Z] = slope_z
             window.tops[count, BASE] = env.planes[o, p, 3] / rise
-            window.tops[count, SPREAD] = half * (abs(slope_x) + abs(slope_z)) + foot
+            spread = half * (abs(slope_x) + abs(slope_z)) + foot
+            window.tops[count, SPREAD] = spread
+            window.tops[count, FALL] = spread
+            if env.kind[o] == CYLINDER and p < env.plane_count[o] - 2:
+                # A side of the prism around a leaning cylinder: what surely holds lies further in.
+                window.tops[count, FALL] = spread + ROUND_SAG * env.half_size[o, 0] / rise
             count += 1
     return count
 
@@ -266,7 +272,7 @@ def _tops(
     for k in range(tops):
         middle = window.tops[k, BASE] + window.tops[k, SLOPE_X] * x + window.tops[k, SLOPE_Z] * z
         high = min(high, middle + window.tops[k, SPREAD])
-        low = min(low, middle - window.tops[k, SPREAD])
+        low = min(low, middle - window.tops[k, FALL])
     return high, low, True
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from polypod.compute import kernel
 from polypod.environment.elevation import fill_terrain, fill_water
-from polypod.environment.grown import SIDE_COLUMNS, fill_obstacles
+from polypod.environment.grown import SIDE_COLUMNS, TOP_COLUMNS, fill_obstacles
 from polypod.environment.table import BoolArray, EnvironmentTable, FloatArray, IntArray
 
 MOST_SIDES = 96  # of a footprint, and planes of a hull: it has at most 48 points
@@ -41,7 +41,7 @@ class LocalMap(NamedTuple):
     line: FloatArray  # [2, N] scratch
     jump: FloatArray  # [N, N] scratch: the difference of heights that makes a cell an edge
     sides: FloatArray  # [MOST_SIDES + 8, SIDE_COLUMNS] scratch
-    tops: FloatArray  # [MOST_SIDES, 4] scratch
+    tops: FloatArray  # [MOST_SIDES, TOP_COLUMNS] scratch
     steps: IntArray  # [N + 2, N + 2] scratch
 
 
@@ -61,7 +61,7 @@ def make_local_map(n: int) -> LocalMap:
         line=np.zeros((2, n)),
         jump=np.zeros((n, n)),
         sides=np.zeros((MOST_SIDES + 8, SIDE_COLUMNS)),
-        tops=np.zeros((MOST_SIDES, 4)),
+        tops=np.zeros((MOST_SIDES, TOP_COLUMNS)),
         steps=np.zeros((n + 2, n + 2), np.int64),
     )
 

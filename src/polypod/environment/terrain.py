@@ -7,6 +7,7 @@ listed in `parts`, and a foot beside a riser is beside a truly vertical face.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -167,28 +168,50 @@ class Terrain:
         return np.asarray(first * (1 - v) + second * v)
 
     def lowest_in(self, corners: FloatArray) -> float:
-        """Return the lowest ground in a convex polygon [V, 2] (x, z).
+        """Return the lowest ground in a convex polygon [V, 2] (x, z), turning from +x toward +z.
 
-        Between samples the ground is straight along x and along z, so its extremes lie at samples
-        and on the outline; the outline is asked at 33 points a side.
+        Between samples the ground is straight along x and along z, so it is lowest at a sample or
+        on the outline; a straight line meets it in parabolas between the sample lines.
         """
-        share = np.linspace(0.0, 1.0, 33)[:, None]
+        if np.ptp(self.heights) == 0.0:
+            return float(self.heights[0, 0])
         ends = np.roll(corners, -1, axis=0)
-        lines = [a * (1 - share) + b * share for a, b in zip(corners, ends, strict=True)]
-        least, greatest = corners.min(axis=0), corners.max(axis=0)
+        lowest = min(self._lowest_along(a, b) for a, b in zip(corners, ends, strict=True))
         rows, columns = self.heights.shape
-        first = np.ceil((least - self.origin) / self.cell)
-        last = np.floor((greatest - self.origin) / self.cell)
-        j = np.arange(max(first[0], 0), min(last[0], columns - 1) + 1)
-        i = np.arange(max(first[1], 0), min(last[1], rows - 1) + 1)
-        lattice = np.stack(np.meshgrid(j, i), axis=-1).reshape(-1, 2) * self.cell + self.origin
+        first = np.maximum(np.ceil((corners.min(axis=0) - self.origin) / self.cell), 0)
+        last = np.floor((corners.max(axis=0) - self.origin) / self.cell)
+        last = np.minimum(last, (columns - 1, rows - 1))
+        axes = np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1)
+        samples = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 2).astype(np.int64)
+        place = samples * self.cell + self.origin
         along = ends - corners
-        beyond = (lattice[:, None, 0] - corners[:, 0]) * along[:, 1] - (
-            lattice[:, None, 1] - corners[:, 1]
-        ) * along[:, 0]
-        return float(
-            np.min(self.heights_at(np.concatenate([*lines, lattice[np.all(beyond <= 0, axis=1)]])))
-        )
+        left = (place[:, None, 1] - corners[:, 1]) * along[:, 0]
+        left -= (place[:, None, 0] - corners[:, 0]) * along[:, 1]
+        within = np.all(left >= 0.0, axis=1)
+        found = self.heights[samples[within, 1], samples[within, 0]]
+        return min(lowest, float(np.min(found, initial=np.inf)))
+
+    def _lowest_along(self, start: FloatArray, end: FloatArray) -> float:
+        """Return the lowest ground on a straight line in plan."""
+        times = [np.array([0.0, 1.0])]
+        for axis in (0, 1):
+            one, other = sorted((start[axis], end[axis]))
+            if other > one:
+                first = math.ceil(max((one - self.origin[axis]) / self.cell, 0.0))
+                limit = self.heights.shape[1 - axis] - 1
+                last = math.floor(min((other - self.origin[axis]) / self.cell, limit))
+                lines = np.arange(first, last + 1) * self.cell + self.origin[axis]
+                times.append((lines - start[axis]) / (end[axis] - start[axis]))
+        knots = np.unique(np.clip(np.concatenate(times), 0.0, 1.0))
+        middles = 0.5 * (knots[:-1] + knots[1:])
+        at_knots = self.heights_at(start + knots[:, None] * (end - start))
+        at_middles = self.heights_at(start + middles[:, None] * (end - start))
+        # height(s) = c + b s + a s^2 for s from 0 to 1 in each stretch.
+        a = 2.0 * (at_knots[:-1] + at_knots[1:] - 2.0 * at_middles)
+        b = at_knots[1:] - at_knots[:-1] - a
+        valley = (a > 0.0) & (b < 0.0) & (-b < 2.0 * a)
+        bottom = at_knots[:-1][valley] - b[valley] ** 2 / (4.0 * a[valley])
+        return float(np.min(np.concatenate([at_knots, at_middles, bottom])))
 
 
 def generated(generator: str, **keys: Any) -> Terrain:
