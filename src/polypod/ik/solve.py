@@ -29,7 +29,8 @@ from polypod.math.vec3 import Vec3, cross, dot, length, load_vec3, normalized, s
 # The table starts within about 1e-6 of the answer: one or two steps are the rule.
 SECANT_STEPS = 6
 REACH_TOLERANCE = 1e-13
-POLISH_STEPS = 8
+POLISH_STEPS = 4
+POLISH_TURN = 0.1
 # Nearer than twice this to the vertical line under the hip, in leg lengths, the heading of a leg's
 # plane is held back: straight under the hip a heading means nothing and would spin the leg.
 HEADING_FLOOR = 0.25
@@ -291,6 +292,7 @@ def polish(ik: IkTable, leg: int, target: Vec3, rotation_out: Any, point_out: An
             reached = reached - axis * dot(reached, axis)
             wanted = wanted - axis * dot(wanted, axis)
             more = math.atan2(dot(cross(reached, wanted), axis), dot(reached, wanted))
+            more = min(max(more, -POLISH_TURN), POLISH_TURN)
             best = min(max(turn + more, ik.turn_low[leg, joint]), ik.turn_high[leg, joint])
             turn_from(ik, leg, joint, from_axis_angle(axis, best - turn), rotation_out, point_out)
         pivot = load_vec3(point_out[0])
