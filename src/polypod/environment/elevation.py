@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
-from polypod.environment.table import EnvironmentTable
+from polypod.environment.table import EnvironmentTable, FloatArray, IntArray
 
 if TYPE_CHECKING:
     from polypod.environment.maps import LocalMap
@@ -50,45 +50,56 @@ def fill_terrain(env: EnvironmentTable, window: LocalMap) -> None:
         # Sample rows inside the map's row that has just ended, then the line between two map rows.
         if i > 0:
             for inner in range(last_row + 1, row + 1):
-                _scan_line(env, window, inner, 0.0)
-                _take_line(window, i - 1)
+                _scan_line(env.heights, window.column, window.fraction, window.line, n, inner, 0.0)
+                _take_line(window.highest, window.lowest, window.line, n, i - 1)
         last_row = row
-        _scan_line(env, window, row, v - row)
+        _scan_line(env.heights, window.column, window.fraction, window.line, n, row, v - row)
         if i > 0:
-            _take_line(window, i - 1)
+            _take_line(window.highest, window.lowest, window.line, n, i - 1)
         if i < n:
-            _take_line(window, i)
+            _take_line(window.highest, window.lowest, window.line, n, i)
 
 
 @kernel
-def _scan_line(env: EnvironmentTable, window: LocalMap, row: int, fraction: float) -> None:
-    """Set for each map column the ground's extremes along a line of constant z."""
+def _scan_line(
+    heights: FloatArray,
+    first: IntArray,
+    share: FloatArray,
+    line: FloatArray,
+    n: int,
+    row: int,
+    fraction: float,
+) -> None:
+    """Set for each map column the ground's extremes along a line of constant z.
+
+    Map column j goes from place `share[j]` in patch `first[j]` to `share[j + 1]` in `first[j + 1]`.
+    """
     here = 1.0 - fraction
-    column = window.column[0]
-    near = env.heights[row, column] * here + env.heights[row + 1, column] * fraction
-    far = env.heights[row, column + 1] * here + env.heights[row + 1, column + 1] * fraction
-    height = near + (far - near) * window.fraction[0]
-    for j in range(window.size[0]):
+    column = first[0]
+    near = heights[row, column] * here + heights[row + 1, column] * fraction
+    far = heights[row, column + 1] * here + heights[row + 1, column + 1] * fraction
+    height = near + (far - near) * share[0]
+    for j in range(n):
         greatest = height
         least = height
-        while column < window.column[j + 1]:
+        while column < first[j + 1]:
             # The sample line between this patch and the next.
             greatest = max(greatest, far)
             least = min(least, far)
             column += 1
             near = far
-            far = env.heights[row, column + 1] * here + env.heights[row + 1, column + 1] * fraction
-        height = near + (far - near) * window.fraction[j + 1]
-        window.line[0, j] = max(greatest, height)
-        window.line[1, j] = min(least, height)
+            far = heights[row, column + 1] * here + heights[row + 1, column + 1] * fraction
+        height = near + (far - near) * share[j + 1]
+        line[0, j] = max(greatest, height)
+        line[1, j] = min(least, height)
 
 
 @kernel
-def _take_line(window: LocalMap, i: int) -> None:
+def _take_line(highest: FloatArray, lowest: FloatArray, line: FloatArray, n: int, i: int) -> None:
     """Widen the extremes of map row `i` by those of the scanned line."""
-    for j in range(window.size[0]):
-        window.highest[i, j] = max(window.highest[i, j], window.line[0, j])
-        window.lowest[i, j] = min(window.lowest[i, j], window.line[1, j])
+    for j in range(n):
+        highest[i, j] = max(highest[i, j], line[0, j])
+        lowest[i, j] = min(lowest[i, j], line[1, j])
 
 
 @kernel

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
 from polypod.environment.convex import ROUND_SAG, ROUND_SLACK
-from polypod.environment.shapes import BOX, CYLINDER, SPHERE, VERTICAL, reach_of_footprint
-from polypod.environment.table import EnvironmentTable, bucket_line, first_met
+from polypod.environment.shapes import BOX, CYLINDER, SPHERE, VERTICAL
+from polypod.environment.table import EnvironmentTable, FloatArray, bucket_line, first_met
 
 if TYPE_CHECKING:
     from polypod.environment.maps import LocalMap
@@ -59,17 +59,17 @@ def fill_obstacles(
     least_z = window.place[1] - reach
     greatest_x = window.place[0] + side + reach
     greatest_z = window.place[1] + side + reach
-    left = bucket_line(env, least_x, 0)
-    right = bucket_line(env, greatest_x, 0)
-    top = bucket_line(env, least_z, 1)
-    bottom = bucket_line(env, greatest_z, 1)
+    left = bucket_line(env.bucket_place, env.bucket_shape, least_x, 0)
+    right = bucket_line(env.bucket_place, env.bucket_shape, greatest_x, 0)
+    top = bucket_line(env.bucket_place, env.bucket_shape, least_z, 1)
+    bottom = bucket_line(env.bucket_place, env.bucket_shape, greatest_z, 1)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):
             bucket = row * env.bucket_shape[1] + column
             for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
                 o = env.bucket_item[i]
                 if (
-                    first_met(env, o, row, column, top, left)
+                    first_met(env.bucket_range, o, row, column, top, left)
                     and env.bounds[o, 0] <= greatest_x
                     and env.bounds[o, 3] >= least_x
                     and env.bounds[o, 2] <= greatest_z
@@ -94,6 +94,7 @@ def _raise_cells(
     tops = _set_tops(env, window, o, foot_half_x, foot_half_z, foot_yaw)
     level = tops == 1 and window.tops[0, SPREAD] == 0.0
     forbidden = env.forbidden[o]
+    slack = ROUNDING * cell
     kind_level = KIND_FORBIDDEN if forbidden else KIND_GROUND
     reach = math.hypot(foot_half_x, foot_half_z) + cell
     first = _cell_at((env.bounds[o, 2] - reach - window.place[1]) / cell, n)
@@ -103,18 +104,19 @@ def _raise_cells(
     covered = True
     for i in range(first, last + 1):
         z = window.place[1] + (i + 0.5) * cell
-        least, greatest = _span(window, count, z, GROWN)
-        if least > greatest + ROUNDING * cell:
+        least, greatest = _span(window.sides, count, slack, z, GROWN)
+        if least > greatest + slack:
             continue
-        overlap_least, overlap_greatest = _span(window, count, z, OVERLAP)
-        inside_least, inside_greatest = _span(window, count, z, INSIDE)
-        covered_least, covered_greatest = _span(window, count, z, COVERED)
+        overlap_least, overlap_greatest = _span(window.sides, count, slack, z, OVERLAP)
+        inside_least, inside_greatest = _span(window.sides, count, slack, z, INSIDE)
+        covered_least, covered_greatest = _span(window.sides, count, slack, z, COVERED)
         left = math.ceil(max((least - window.place[0]) / cell - 0.5 - ROUNDING, 0.0))
         right = math.floor(min((greatest - window.place[0]) / cell - 0.5 + ROUNDING, n - 1.0))
         for j in range(left, right + 1):
             x = window.place[0] + (j + 0.5) * cell
             if not level:
-                high, low, covered = _tops(env, window, tops, o, x, z)
+                high, low, covered = _tops(window.tops, tops, x, z)
+                high = min(high, env.bounds[o, 4])
             if high <= window.lowest[i, j] and not forbidden:
                 continue
             kind = KIND_GROWN
@@ -129,8 +131,12 @@ def _raise_cells(
                 window.lowest[i, j] = max(window.lowest[i, j], low)
             else:
                 window.jump[i, j] = OBSTACLE_JUMP * cell
-    if env.kind[o] == BOX:
-        _mark_corners(env, window, o)
+    corners = env.footprint_count[o] if env.kind[o] == BOX else 0
+    for v in range(corners):
+        j = math.floor((env.footprint[o, v, 0] - window.place[0]) / cell)
+        i = math.floor((env.footprint[o, v, 1] - window.place[1]) / cell)
+        if min(i, j) >= 0 and max(i, j) < n and window.kind[i, j] == KIND_EDGE:
+            window.kind[i, j] = KIND_CORNER
 
 
 @kernel
@@ -167,7 +173,7 @@ def _set_sides(
                 normal_x, normal_z = -normal_z, normal_x
             if (k - own) % 4 >= 2:
                 normal_x, normal_z = -normal_x, -normal_z
-            reach = reach_of_footprint(env, o, normal_x, normal_z)
+            reach = _reach(env.footprint[o], own, normal_x, normal_z)
         cell_reach = half * (abs(normal_x) + abs(normal_z))
         foot_reach = _foot_reach(normal_x, normal_z, cosine, sine, foot_half_x, foot_half_z)
         window.sides[k, 0] = normal_x
@@ -180,6 +186,15 @@ def _set_sides(
 
 
 @kernel
+def _reach(corners: FloatArray, count: int, normal_x: float, normal_z: float) -> float:
+    """Return how far a footprint reaches along a plan direction."""
+    reach = -math.inf
+    for v in range(count):
+        reach = max(reach, float(normal_x * corners[v, 0] + normal_z * corners[v, 1]))
+    return reach
+
+
+@kernel
 def _foot_reach(
     x: float, z: float, cosine: float, sine: float, foot_half_x: float, foot_half_z: float
 ) -> float:
@@ -188,18 +203,20 @@ def _foot_reach(
 
 
 @kernel
-def _span(window: LocalMap, count: int, z: float, column: int) -> tuple[float, float]:
+def _span(
+    sides: FloatArray, count: int, slack: float, z: float, column: int
+) -> tuple[float, float]:
     """Return the least and greatest x of a row inside all half-planes; (inf, -inf) for none."""
     least = -math.inf
     greatest = math.inf
     for k in range(count):
-        normal_x = window.sides[k, 0]
-        room = window.sides[k, column] - window.sides[k, 1] * z
+        normal_x = sides[k, 0]
+        room = sides[k, column] - sides[k, 1] * z
         if normal_x > VERTICAL:
             greatest = min(greatest, room / normal_x)
         elif normal_x < -VERTICAL:
             least = max(least, room / normal_x)
-        elif room < -ROUNDING * window.place[2]:
+        elif room < -slack:
             return math.inf, -math.inf
     return least, greatest
 
@@ -215,7 +232,8 @@ def _set_tops(
 ) -> int:
     """Write the planes of obstacle `o` that face up; return how many, 0 for a sphere.
 
-    A sphere writes the half sizes, along x and z, of the box around the feet in a cell.
+    A sphere writes the half sizes, along x and z, of the box around the feet in a cell, and in the
+    second row its centre and its radius.
     """
     cosine = math.cos(foot_yaw)
     sine = math.sin(foot_yaw)
@@ -223,8 +241,11 @@ def _set_tops(
     if env.kind[o] == SPHERE:
         foot_x = _foot_reach(1.0, 0.0, cosine, sine, foot_half_x, foot_half_z)
         foot_z = _foot_reach(0.0, 1.0, cosine, sine, foot_half_x, foot_half_z)
-        window.tops[0, SLOPE_X] = half + foot_x
-        window.tops[0, SLOPE_Z] = half + foot_z
+        window.tops[0, 0] = half + foot_x
+        window.tops[0, 1] = half + foot_z
+        for axis in range(3):
+            window.tops[1, axis] = env.position[o, axis]
+        window.tops[1, 3] = env.half_size[o, 0]
         return 0
     count = 0
     for p in range(env.plane_count[o]):
@@ -247,42 +268,26 @@ def _set_tops(
 
 
 @kernel
-def _tops(
-    env: EnvironmentTable, window: LocalMap, tops: int, o: int, x: float, z: float
-) -> tuple[float, float, bool]:
+def _tops(tops: FloatArray, count: int, x: float, z: float) -> tuple[float, float, bool]:
     """Return the highest and the lowest top of obstacle `o` under feet in the cell around (x, z).
 
     The lowest holds only where the third value is true and the feet are covered by the footprint.
     The top is the least of the planes that face up, so its minimum is the least of their minima;
     the least of their maxima is its maximum or a little above.
     """
-    if tops == 0:
-        off_x = abs(x - env.position[o, 0])
-        off_z = abs(z - env.position[o, 2])
-        reach_x = window.tops[0, SLOPE_X]
-        reach_z = window.tops[0, SLOPE_Z]
-        near = math.hypot(max(off_x - reach_x, 0.0), max(off_z - reach_z, 0.0))
-        far = math.hypot(off_x + reach_x, off_z + reach_z)
-        square = env.half_size[o, 0] * env.half_size[o, 0]
-        high = env.position[o, 1] + math.sqrt(max(square - near * near, 0.0))
-        low = env.position[o, 1] + math.sqrt(max(square - far * far, 0.0))
-        return high, low, far < env.half_size[o, 0]
-    high = env.bounds[o, 4]
+    if count == 0:
+        off_x = abs(x - tops[1, 0])
+        off_z = abs(z - tops[1, 2])
+        near = math.hypot(max(off_x - tops[0, 0], 0.0), max(off_z - tops[0, 1], 0.0))
+        far = math.hypot(off_x + tops[0, 0], off_z + tops[0, 1])
+        radius = tops[1, 3]
+        high = tops[1, 1] + math.sqrt(max(radius * radius - near * near, 0.0))
+        low = tops[1, 1] + math.sqrt(max(radius * radius - far * far, 0.0))
+        return high, low, far < radius
+    high = math.inf
     low = math.inf
-    for k in range(tops):
-        middle = window.tops[k, BASE] + window.tops[k, SLOPE_X] * x + window.tops[k, SLOPE_Z] * z
-        high = min(high, middle + window.tops[k, SPREAD])
-        low = min(low, middle - window.tops[k, FALL])
+    for k in range(count):
+        middle = tops[k, BASE] + tops[k, SLOPE_X] * x + tops[k, SLOPE_Z] * z
+        high = min(high, middle + tops[k, SPREAD])
+        low = min(low, middle - tops[k, FALL])
     return high, low, True
-
-
-@kernel
-def _mark_corners(env: EnvironmentTable, window: LocalMap, o: int) -> None:
-    for v in range(env.footprint_count[o]):
-        j = math.floor((env.footprint[o, v, 0] - window.place[0]) / window.place[2])
-        i = math.floor((env.footprint[o, v, 1] - window.place[1]) / window.place[2])
-        if i >= 0 and j >= 0 and i < window.size[0] and j < window.size[0]:
-            row = int(i)
-            column = int(j)
-            if window.kind[row, column] == KIND_EDGE:
-                window.kind[row, column] = KIND_CORNER

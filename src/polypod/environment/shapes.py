@@ -158,16 +158,6 @@ def depth_inside(env: EnvironmentTable, o: int, point: Vec3) -> float:
 
 
 @kernel
-def reach_of_footprint(env: EnvironmentTable, o: int, normal_x: float, normal_z: float) -> float:
-    """Return how far the footprint of obstacle `o` reaches along a plan direction."""
-    reach = -math.inf
-    for v in range(env.footprint_count[o]):
-        here = normal_x * env.footprint[o, v, 0] + normal_z * env.footprint[o, v, 1]
-        reach = max(reach, float(here))
-    return reach
-
-
-@kernel
 def plan_distance(env: EnvironmentTable, o: int, x: float, z: float) -> float:
     """Return the distance in plan from a point to the footprint of obstacle `o`; inside it 0."""
     if env.kind[o] == SPHERE:

@@ -31,16 +31,24 @@ def segment_clear(env: EnvironmentTable, start_world: Vec3, end_world: Vec3, rad
         return False
     if env.bucket_shape[0] == 0:
         return True
-    left = bucket_line(env, min(start_world.x, end_world.x) - radius, 0)
-    right = bucket_line(env, max(start_world.x, end_world.x) + radius, 0)
-    top = bucket_line(env, min(start_world.z, end_world.z) - radius, 1)
-    bottom = bucket_line(env, max(start_world.z, end_world.z) + radius, 1)
+    left = bucket_line(
+        env.bucket_place, env.bucket_shape, min(start_world.x, end_world.x) - radius, 0
+    )
+    right = bucket_line(
+        env.bucket_place, env.bucket_shape, max(start_world.x, end_world.x) + radius, 0
+    )
+    top = bucket_line(
+        env.bucket_place, env.bucket_shape, min(start_world.z, end_world.z) - radius, 1
+    )
+    bottom = bucket_line(
+        env.bucket_place, env.bucket_shape, max(start_world.z, end_world.z) + radius, 1
+    )
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):
             bucket = row * env.bucket_shape[1] + column
             for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
                 o = env.bucket_item[i]
-                if first_met(env, o, row, column, top, left) and _touches(
+                if first_met(env.bucket_range, o, row, column, top, left) and _touches(
                     env, o, start_world, end_world, radius
                 ):
                     return False

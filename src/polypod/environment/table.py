@@ -54,14 +54,16 @@ class EnvironmentTable(NamedTuple):
 
 
 @kernel
-def _patch(env: EnvironmentTable, x: float, z: float) -> tuple[int, int, float, float]:
+def _patch(
+    heights: FloatArray, place: FloatArray, x: float, z: float
+) -> tuple[int, int, float, float]:
     """Return row and column of the patch of terrain at (x, z) and the place in it, from 0 to 1.
 
     Beyond the edge it is the nearest place at the edge.
     """
-    rows, columns = env.heights.shape
-    u = (x - env.terrain_place[0]) / env.terrain_place[2]
-    v = (z - env.terrain_place[1]) / env.terrain_place[2]
+    rows, columns = heights.shape
+    u = (x - place[0]) / place[2]
+    v = (z - place[1]) / place[2]
     u = min(max(u, 0.0), columns - 1.0)
     v = min(max(v, 0.0), rows - 1.0)
     column = min(int(u), columns - 2)
@@ -72,7 +74,7 @@ def _patch(env: EnvironmentTable, x: float, z: float) -> tuple[int, int, float, 
 @kernel
 def ground_height(env: EnvironmentTable, x: float, z: float) -> float:
     """Return the terrain's height in metres, bilinear between its samples; no obstacles."""
-    row, column, u, v = _patch(env, x, z)
+    row, column, u, v = _patch(env.heights, env.terrain_place, x, z)
     near = env.heights[row, column] * (1.0 - u) + env.heights[row, column + 1] * u
     far = env.heights[row + 1, column] * (1.0 - u) + env.heights[row + 1, column + 1] * u
     return float(near * (1.0 - v) + far * v)
@@ -81,7 +83,7 @@ def ground_height(env: EnvironmentTable, x: float, z: float) -> float:
 @kernel
 def ground_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
     """Return the terrain's unit normal; between two patches, that of the one further along x, z."""
-    row, column, u, v = _patch(env, x, z)
+    row, column, u, v = _patch(env.heights, env.terrain_place, x, z)
     a = env.heights[row, column]
     b = env.heights[row, column + 1]
     c = env.heights[row + 1, column]
@@ -111,20 +113,20 @@ def bucket_at(env: EnvironmentTable, x: float, z: float) -> int:
 
 
 @kernel
-def bucket_line(env: EnvironmentTable, value: float, axis: int) -> int:
+def bucket_line(place: FloatArray, shape: IntArray, value: float, axis: int) -> int:
     """Return the column (axis 0, of x) or row (axis 1, of z), moved into the grid."""
-    line = math.floor((value - env.bucket_place[axis]) / env.bucket_place[2])
-    return int(min(max(line, 0.0), env.bucket_shape[1 - axis] - 1.0))
+    line = math.floor((value - place[axis]) / place[2])
+    return int(min(max(line, 0.0), shape[1 - axis] - 1.0))
 
 
 @kernel
-def first_met(env: EnvironmentTable, o: int, row: int, column: int, top: int, left: int) -> bool:
+def first_met(bucket_range: IntArray, o: int, row: int, column: int, top: int, left: int) -> bool:
     """Say whether bucket (row, column) is the first that lists `o` in a range that starts there.
 
     A range of buckets from (top, left) lists an obstacle many times; this picks one of them.
     """
-    met_row = max(top, env.bucket_range[o, 0])
-    met_column = max(left, env.bucket_range[o, 1])
+    met_row = max(top, bucket_range[o, 0])
+    met_column = max(left, bucket_range[o, 1])
     return bool(row == met_row and column == met_column)
 
 
@@ -168,16 +170,18 @@ def is_forbidden(env: EnvironmentTable, x: float, z: float, margin: float) -> bo
     """Say whether a forbidden obstacle's footprint comes within `margin` metres in plan."""
     if env.bucket_shape[0] == 0:
         return False
-    left = bucket_line(env, x - margin, 0)
-    right = bucket_line(env, x + margin, 0)
-    top = bucket_line(env, z - margin, 1)
-    bottom = bucket_line(env, z + margin, 1)
+    left = bucket_line(env.bucket_place, env.bucket_shape, x - margin, 0)
+    right = bucket_line(env.bucket_place, env.bucket_shape, x + margin, 0)
+    top = bucket_line(env.bucket_place, env.bucket_shape, z - margin, 1)
+    bottom = bucket_line(env.bucket_place, env.bucket_shape, z + margin, 1)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):
             bucket = row * env.bucket_shape[1] + column
             for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
                 o = env.bucket_item[i]
-                if not env.forbidden[o] or not first_met(env, o, row, column, top, left):
+                if not env.forbidden[o] or not first_met(
+                    env.bucket_range, o, row, column, top, left
+                ):
                     continue
                 if plan_distance(env, o, x, z) <= margin:
                     return True
