@@ -129,6 +129,7 @@ def judge_candidates(
     legs: OtherLegs,
     window: LocalMap,
     cells: int,
+    crowded: bool,
     level: bool,
     found: CandidateScratch,
     kept: int,
@@ -156,11 +157,11 @@ def judge_candidates(
         column = found.cell[best, 1]
         found.first_score[best] = -1e301
         point = offer(window, row, column, request.preferred_world)
-        score, y = judge_place(env, settings, request, legs, point.x, point.z, True, level)
+        score, y = judge_place(env, settings, request, legs, point.x, point.z, crowded, level)
         if score < 0.0:
             x = window.place[0] + (column + 0.5) * cell
             point = Vec3(x, 0.0, window.place[1] + (row + 0.5) * cell)
-            score, y = judge_place(env, settings, request, legs, point.x, point.z, True, level)
+            score, y = judge_place(env, settings, request, legs, point.x, point.z, crowded, level)
         if score < 0.0:
             continue
         for k in range(cells):

@@ -225,7 +225,7 @@ def best_pair(
             break
         end = load_vec3(scratch.found.place[k])
         direct = math.hypot(end.x - request.start_world.x, end.z - request.start_world.z)
-        top = OVER_ALL
+        top = 2.0 * OVER_ALL  # no path yet
         for layer in range(slices):
             level = scratch.grid.level[layer]
             if end.y > level:
@@ -337,7 +337,9 @@ def plan_step(
         scratch.found.place[0, 2] = end.z
         scratch.found.place_cell[0, 0] = int((end.z - window.place[1]) / window.place[2])
         scratch.found.place_cell[0, 1] = int((end.x - window.place[0]) / window.place[2])
-    kept = judge_candidates(env, settings, request, legs, window, cells, level, scratch.found, kept)
+    kept = judge_candidates(
+        env, settings, request, legs, window, cells, crowded, level, scratch.found, kept
+    )
     slices = place_slices(settings, request, scratch, kept, max(start.y, y))
     best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
     scratch.tally[TALLY_CANDIDATES] = kept

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable, is_forbidden, surface
@@ -260,12 +259,13 @@ def lift_path(
 
 
 @kernel
-def straight_plan(lift: LiftScratch, start: Vec3, end: Any) -> int:
+def straight_plan(lift: LiftScratch, start: Vec3, end: Vec3) -> int:
     """Write the straight line in plan and return how many points it has."""
-    lift.plan[0, 0] = start.x
-    lift.plan[0, 1] = start.z
-    lift.plan[0, 2] = 0.0
-    lift.plan[1, 0] = end.x
-    lift.plan[1, 1] = end.z
+    points = 0
+    for point in (start, end):
+        lift.plan[points, 0] = point.x
+        lift.plan[points, 1] = point.z
+        lift.plan[points, 2] = 0.0
+        points += 1
     lift.plan[1, 2] = math.hypot(end.x - start.x, end.z - start.z)
-    return 2
+    return points
