@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
 from polypod.morphology.types import BoolArray, FloatArray, Morphology
 from polypod.paths.curve import PathRow, path_store
+from polypod.reference import by_reference
 from polypod.state import HerdTables, JointTable, make_command, make_state
 
 WAYPOINT_ROOM = 256
@@ -86,6 +87,12 @@ class Herd:
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
         self.command.step_height = settings.step_height * self.tables.leg_length
+        # What kernels take: the same arrays, by reference.
+        self.kernel_tables = by_reference(self.tables)
+        self.kernel_state = by_reference(self.state)
+        self.kernel_command = by_reference(self.command.arrays)
+        self.kernel_settings = by_reference(settings.values())
+        self.kernel_plan = by_reference(self.plan_settings)
         self._scratch: list[Scratch] = []
 
     @property
@@ -104,21 +111,16 @@ class Herd:
             legs = self.morphology.legs
             feet, most = legs.joint.shape
             path = path_store(1, 1)
-            self._scratch.append(
-                Scratch(
-                    plan=make_plan_scratch(self.plan_settings, feet),
-                    path=PathRow(*(array[0, 0] for array in path)),
-                    hull=make_hull_scratch(feet),
-                    progress=np.zeros(feet),
-                    held=np.zeros(feet, np.bool_),
-                    start=np.zeros(feet),
-                    extent=np.zeros(feet),
-                    leg_rotation=np.zeros((most, 4)),
-                    leg_point=np.zeros((most + 1, 3)),
-                )
+            scratch = Scratch(
+                plan=make_plan_scratch(self.plan_settings, feet),
+                path=PathRow(*(array[0, 0] for array in path)),
+                hull=make_hull_scratch(feet),
+                progress=np.zeros(feet),
+                held=np.zeros(feet, np.bool_),
+                start=np.zeros(feet),
+                extent=np.zeros(feet),
+                leg_rotation=np.zeros((most, 4)),
+                leg_point=np.zeros((most + 1, 3)),
             )
+            self._scratch.append(by_reference(scratch))
         return self._scratch[worker]
-
-    def kernel_settings(self) -> Any:
-        """Return the settings as kernels read them."""
-        return self.settings.values()

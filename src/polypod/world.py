@@ -28,6 +28,7 @@ from polypod.gait.pattern import Gait
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
 from polypod.morphology.types import Morphology
+from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
 
@@ -84,24 +85,16 @@ def step_range(
 
 
 @kernel
-def begin(
-    c: int, phase: float, state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
-) -> bool:  # fmt: skip
-    """Stand a creature and set its disks; return whether it can stand where it is."""
-    duty = min(command.gait_duty[c, 2], max(command.gait_duty[c, 1], command.gait_duty[c, 0]))
-    state.duty[c] = duty
+def set_disks(c: int, phase: float, state: Any, command: Any) -> None:
+    """Give a creature that has not walked yet the disks of its gait, and its needle a place."""
+    state.duty[c] = command.gait_duty[c, 0]
     state.gait_number[c] = command.gait_number[c]
-    destination_disks(c, command, duty, state.goal_start[c], state.goal_extent[c])
-    destination_disks(c, command, duty, state.swing_start[c], state.swing_extent[c])
+    destination_disks(c, command, state.duty[c], state.goal_start[c], state.goal_extent[c])
+    destination_disks(c, command, state.duty[c], state.swing_start[c], state.swing_extent[c])
     state.least_down[c] = minimum_feet_down(state.swing_start[c], state.swing_extent[c])
     state.needle[c] = phase
     for k in range(state.stood.shape[1]):
         state.stood[c, k] = 1.0
-    fits = spawn(c, state, command, tables, settings, env, plan_settings, scratch)
-    if fits:
-        pose_joints(c, state, tables, scratch)
-    return fits
 
 
 class World:
@@ -124,6 +117,7 @@ class World:
         if not isinstance(place, Environment):
             place = Environment(place, obstacles)
         self.environment = place
+        self.kernel_environment = by_reference(place.table)
         self.herds: list[Herd] = []
         self.time = 0.0
         self.threads = thread_count() if threads is None else max(1, int(threads))
@@ -168,14 +162,11 @@ class World:
         herd.state.heading[:] = herd.command.heading
         chosen = self._gait(herd, gait, float(np.max(herd.command.speed)))
         herd.command.set_gait(chosen)
-        scratch = herd.scratch(0)
         for c in range(count):
             # A golden-angle offset, so that the creatures of a herd are not in step.
             phase = (chosen.standing_phase + c * 0.618033988749895) % 1.0
-            if not begin(
-                c, phase, herd.state, herd.command.arrays, herd.tables, herd.kernel_settings(),
-                self.environment.table, herd.plan_settings, scratch,
-            ):  # fmt: skip
+            set_disks(c, phase, herd.kernel_state, herd.kernel_command)
+            if not self._spawn(herd, c):
                 x, z = points[c]
                 raise SettingError(
                     f"{morphology.name} cannot stand at x {x:g}, z {z:g}: not every foot finds a "
@@ -183,6 +174,16 @@ class World:
                 )
         self.herds.append(herd)
         return herd
+
+    def _spawn(self, herd: Herd, c: int) -> bool:
+        scratch = herd.scratch(0)
+        fits = spawn(
+            c, herd.kernel_state, herd.kernel_command, herd.kernel_tables, herd.kernel_settings,
+            self.kernel_environment, herd.kernel_plan, scratch, herd.settings.search_radius,
+        )  # fmt: skip
+        if fits:
+            pose_joints(c, herd.kernel_state, herd.kernel_tables, scratch)
+        return fits
 
     def _gait(self, herd: Herd, gait: Gait | str | None, speed: float) -> Gait:
         if isinstance(gait, Gait):
@@ -202,16 +203,14 @@ class World:
         if not 0.0 < dt <= LONGEST_STEP:
             raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
         for herd in self.herds:
-            settings = herd.kernel_settings()
             for worker in range(self.threads):
                 herd.scratch(worker)
 
-            def run(
-                first: int, last: int, worker: int, herd: Herd = herd, settings: Any = settings
-            ) -> None:
+            def run(first: int, last: int, worker: int, herd: Herd = herd) -> None:
                 step_range(
-                    first, last, dt, herd.state, herd.command.arrays, herd.tables, settings,
-                    self.environment.table, herd.plan_settings, herd.scratch(worker),
+                    first, last, dt, herd.kernel_state, herd.kernel_command, herd.kernel_tables,
+                    herd.kernel_settings, self.kernel_environment, herd.kernel_plan,
+                    herd.scratch(worker),
                 )  # fmt: skip
 
             over_creatures(run, herd.count, self.threads)

@@ -76,8 +76,8 @@ def least_height(
     """Return the least height of the body centre over what lies under the trunk, metres, world.
 
     The larger of P1's rule (the hull at the centre, plus the thickness) and of what keeps the
-    belly, inclined by `slope_forward`, above each sample. `ahead` metres of ground in front of the trunk
-    count too, so that the body has risen when a crate comes under it.
+    belly, inclined by `slope_forward`, above each sample. `ahead` metres of ground in front of
+    the trunk count too, so that the body has risen when a crate comes under it.
     """
     body = tables.body
     half_z = body.half_size[2]

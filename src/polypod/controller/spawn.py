@@ -13,7 +13,7 @@ from polypod.controller.settle import feet_fit
 from polypod.controller.steering import plan_pose
 from polypod.environment.table import surface
 from polypod.math.quat import store_quat
-from polypod.math.vec3 import Vec3, load_vec3, store_vec3
+from polypod.math.vec3 import Vec3, store_vec3
 
 # Body and feet are placed in turns: each fits the other better.
 TURNS = 4
@@ -24,10 +24,16 @@ FROM_ABOVE = 0.5
 
 @kernel
 def stand_feet(
-    c: int, radius: float, state: Any, command: Any, tables: Any, settings: Any,
+    c: int, first: bool, radius: float, state: Any, command: Any, tables: Any, settings: Any,
     env: Any, plan_settings: Any, scratch: Any,
 ) -> bool:  # fmt: skip
-    """Place every foot of a creature near its rest place under the present body pose."""
+    """Place every foot of a creature near its rest place under the present body pose.
+
+    The `first` time the body is taken to be at its preferred height over what is under it.
+    """
+    if first:
+        under, _ = surface(env, state.position[c, 0], state.position[c, 2])
+        state.position[c, 1] = under + command.body_height[c]
     pose = plan_pose(c, state)
     for k in range(state.swinging.shape[1]):
         offset = rest_offset(c, k, pose.heading, state, tables, settings)
@@ -76,27 +82,19 @@ def stand_body(
     return feet_fit(c, 0.0, position, turn, state, tables, scratch)
 
 
-@kernel
 def spawn(
     c: int, state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
+    env: Any, plan_settings: Any, scratch: Any, search_radius: float,
 ) -> bool:  # fmt: skip
-    """Stand a creature at its position and heading on the plane; return whether it can stand."""
-    height, _ = surface(env, state.position[c, 0], state.position[c, 2])
-    state.position[c, 1] = height + command.body_height[c]
-    wished = load_vec3(state.position[c])
-    radius = settings.search_radius
-    fits = False
-    for _ in range(TURNS):
-        state.position[c, 0] = wished.x
-        state.position[c, 2] = wished.z
+    """Stand a creature at its position and heading on the plane; return whether it can stand.
+
+    Plain Python over two kernels: one kernel around both would take as long again to compile.
+    """
+    radius = search_radius
+    for turn in range(TURNS):
         if stand_feet(
-            c, radius, state, command, tables, settings, env, plan_settings, scratch
-        ):  # fmt: skip
-            fits = stand_body(c, state, command, tables, settings, env, scratch)
-        else:
-            fits = False
-        if fits:
-            break
+            c, turn == 0, radius, state, command, tables, settings, env, plan_settings, scratch
+        ) and stand_body(c, state, command, tables, settings, env, scratch):  # fmt: skip
+            return True
         radius *= SEARCH_GROWTH
-    return fits
+    return False
