@@ -124,22 +124,18 @@ def test_grown_cells_are_those_that_a_foot_touches(
 
 
 def test_a_box_is_grown_exactly() -> None:
-    """By hand: a box and a foot along the axes, a cell's width apart."""
-    box = Obstacle.box((4 * CELL, 0.3, 6 * CELL), (0.0, 0.15, 0.0))
+    """By hand: a box of half 1.95 x 2.95 cells and a foot of half 0.9 x 0.4, along the axes."""
+    box = Obstacle.box((3.9 * CELL, 0.3, 5.9 * CELL), (0.0, 0.15, 0.0))
     env = Environment(Terrain.flat(), [box]).table
-    foot = (0.9 * CELL, 0.4 * CELL, 0.0)
-    window = maps_of(env, foot, (0.0, 0.0), 12)
-    # Cell 6 begins at 0. Along x the box ends at 2 cells, with the foot at 2.9: cells 8 and 9 are
-    # touched, the first only at the box's side. Along z it ends at 3 and 3.4 cells.
-    row = window.kind[6, :12]
-    assert row.tolist() == [0, 0, 0, 1, 2, 4, 4, 2, 1, 0, 0, 0] or row[9] == KIND_GROUND
-    assert [int(k) for k in row[6:9]] == [KIND_INSIDE, KIND_INSIDE, KIND_EDGE]
-    assert window.highest[6, 8] == 0.3
-    assert window.highest[6, 9] == 0.0
-    assert window.lowest[6, 6] == pytest.approx(0.3)
-    assert window.lowest[6, 7] == 0.0  # its feet reach over the side
-    assert window.highest[9, 6] == 0.3
-    assert window.highest[10, 6] == 0.0
+    window = maps_of(env, (0.9 * CELL, 0.4 * CELL, 0.0), (0.0, 0.0), 12)
+    # Cell 6 begins at 0. Along x the grown box ends at 2.85 cells, along z at 3.35.
+    assert window.kind[6, :12].tolist() == [0, 0, 0, 1, 2, 4, 4, 2, 1, 0, 0, 0]
+    assert window.kind[:12, 6].tolist() == [0, 0, 1, 2, 4, 4, 4, 4, 2, 1, 0, 0]
+    assert window.kind[3, 4] == KIND_CORNER
+    assert (window.highest[6, :12] == 0.3).tolist() == [3 <= j <= 8 for j in range(12)]
+    # Feet lie wholly on top within 1.05 cells along x and 2.55 along z.
+    assert (window.lowest[6, :12] == 0.3).tolist() == [5 <= j <= 6 for j in range(12)]
+    assert (window.lowest[:12, 6] == 0.3).tolist() == [4 <= i <= 7 for i in range(12)]
 
 
 def test_a_foot_on_top_finds_an_even_cell() -> None:
