@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap
@@ -129,8 +130,7 @@ def judge_candidates(
     legs: OtherLegs,
     window: LocalMap,
     cells: int,
-    crowded: bool,
-    level: bool,
+    near: Any,
     found: CandidateScratch,
     kept: int,
 ) -> int:
@@ -157,11 +157,11 @@ def judge_candidates(
         column = found.cell[best, 1]
         found.first_score[best] = -1e301
         point = offer(window, row, column, request.preferred_world)
-        score, y = judge_place(env, settings, request, legs, point.x, point.z, crowded, level)
+        score, y = judge_place(env, settings, request, legs, near, point.x, point.z)
         if score < 0.0:
             x = window.place[0] + (column + 0.5) * cell
             point = Vec3(x, 0.0, window.place[1] + (row + 0.5) * cell)
-            score, y = judge_place(env, settings, request, legs, point.x, point.z, crowded, level)
+            score, y = judge_place(env, settings, request, legs, near, point.x, point.z)
         if score < 0.0:
             continue
         for k in range(cells):

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable, is_forbidden, is_wet, surface
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3, distance
 from polypod.paths.check import leg_contact
+from polypod.paths.lift import obstacles_near
 from polypod.paths.scratch import OtherLegs
 
 REJECTED = -1.0
@@ -18,6 +20,9 @@ EXIT_ANGLE = 0.7  # radians between two of them
 EXIT_SAMPLES = 5
 # What a leg cannot get over, shares of its longest reach above the place.
 TOO_HIGH = 0.7
+# Shorter stances have no course, leg lengths.
+SHORTEST_COURSE = 0.05
+LOWEST = -1e300
 
 
 @kernel
@@ -93,22 +98,19 @@ def exit_score(
     settings: PlanSettings,
     request: StepRequest,
     x: float,
-    y: float,
     z: float,
+    high: float,
+    heading: float,
+    step: float,
 ) -> float:
     """Return how well the next step can leave the place: 1 ahead, less to the sides, 0 not at all.
 
-    Pockets between forbidden or very high things trap legs.
+    Pockets between forbidden or very high things (above `high`, m) trap legs. `heading` is the
+    course and `step` the length of the coming stance (rad, m).
     """
-    course_x = request.hip_end_of_stance.x - request.hip_touchdown.x
-    course_z = request.hip_end_of_stance.z - request.hip_touchdown.z
-    step = math.hypot(course_x, course_z)
-    if step <= 0.05 * request.leg_length:
-        return 1.0
     margin = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * (
         request.leg_length
     )
-    heading = math.atan2(course_x, course_z)
     best = 0.0
     for k in range(EXITS):
         # 0, +, -, 2+, 2-: mirrored pairs, so that no side is favoured.
@@ -124,7 +126,7 @@ def exit_score(
             to_x = x + sine * along
             to_z = z + cosine * along
             height, _ = surface(env, to_x, to_z)
-            if height - y > TOO_HIGH * request.reach_max or is_forbidden(env, to_x, to_z, margin):
+            if height > high or is_forbidden(env, to_x, to_z, margin):
                 free = False
                 break
         if free:
@@ -196,10 +198,9 @@ def judge_place(
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
+    near: Any,
     x: float,
     z: float,
-    crowded: bool,
-    level: bool,
 ) -> tuple[float, float]:
     """Return a place's score in [0, 1] (REJECTED: it cannot be stood on) and its exact height (m).
 
@@ -208,31 +209,36 @@ def judge_place(
         settings: margins and weights.
         request: the step.
         legs: the other legs, of which `request.other_foot_count` segments count.
+        near: scratch for a list of obstacles.
         x: world x, m.
         z: world z, m.
-        crowded: whether any obstacle is near; without one only the terrain is asked.
-        level: whether the terrain is flat.
     """
     y, _ = surface(env, x, z)
     reach = reach_score(settings, request, Vec3(x, y, z))
     if reach < 0.0 or is_wet(env, x, z):
         return REJECTED, y
-    even = 1.0
-    edge = 1.0
-    leave = 1.0
-    if crowded:
-        margin = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * (
-            request.leg_length
-        )
-        if is_forbidden(env, x, z, margin):
-            return REJECTED, y
-    if crowded or not level:
+    leg = request.leg_length
+    foot = max(request.foot_half_x, request.foot_half_z)
+    if is_forbidden(env, x, z, foot + settings.forbidden_margin * leg):
+        return REJECTED, y
+    even = edge = leave = 1.0
+    level = env.terrain_range[0] == env.terrain_range[1]
+    wide = 1.5 * (foot + max(settings.edge, settings.toe) * leg)
+    if not level or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
         even = even_score(env, settings, request, x, y, z)
         if even < 0.0:
             return REJECTED, y
         edge = edge_score(env, settings, request, x, y, z)
-    if crowded:
-        leave = exit_score(env, settings, request, x, y, z)
+    course_x = request.hip_end_of_stance.x - request.hip_touchdown.x
+    course_z = request.hip_end_of_stance.z - request.hip_touchdown.z
+    step = math.hypot(course_x, course_z)
+    high = y + TOO_HIGH * request.reach_max
+    if step > SHORTEST_COURSE * leg and (
+        env.terrain_range[1] > high
+        or obstacles_near(env, x - step, z - step, x + step, z + step, high, near) > 0
+    ):
+        heading = math.atan2(course_x, course_z)
+        leave = exit_score(env, settings, request, x, z, high, heading, step)
     factor = leg_factor(settings, request, legs, x, y, z)
     if factor < 0.0:
         return REJECTED, y

@@ -28,7 +28,6 @@ from polypod.paths.lift import (
     BLEND,
     arc_start,
     lift_path,
-    obstacles_near,
     place_knots,
     straight_plan,
 )
@@ -291,18 +290,10 @@ def plan_step(
         scratch.tally[k] = 0
     start = request.start_world
     wanted = request.preferred_world
-    wide = request.search_radius + max(request.foot_half_x, request.foot_half_z)
-    crowded = obstacles_near(
-        env,
-        min(start.x, wanted.x) - wide,
-        min(start.z, wanted.z) - wide,
-        max(start.x, wanted.x) + wide,
-        max(start.z, wanted.z) + wide,
-    )
-    level = env.terrain_range[0] == env.terrain_range[1]
     best = NOTHING
     kept = 0
-    place_score, y = judge_place(env, settings, request, legs, wanted.x, wanted.z, crowded, level)
+    near = scratch.lift.near
+    place_score, y = judge_place(env, settings, request, legs, near, wanted.x, wanted.z)
     end = Vec3(wanted.x, y, wanted.z)
     if place_score >= 0.0:
         kept = 1
@@ -337,9 +328,7 @@ def plan_step(
         scratch.found.place[0, 2] = end.z
         scratch.found.place_cell[0, 0] = int((end.z - window.place[1]) / window.place[2])
         scratch.found.place_cell[0, 1] = int((end.x - window.place[0]) / window.place[2])
-    kept = judge_candidates(
-        env, settings, request, legs, window, cells, crowded, level, scratch.found, kept
-    )
+    kept = judge_candidates(env, settings, request, legs, window, cells, near, scratch.found, kept)
     slices = place_slices(settings, request, scratch, kept, max(start.y, y))
     best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
     scratch.tally[TALLY_CANDIDATES] = kept

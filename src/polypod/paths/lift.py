@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from polypod.compute import kernel
-from polypod.environment.table import EnvironmentTable, is_forbidden, surface
+from polypod.environment.table import (
+    EnvironmentTable,
+    bucket_line,
+    first_met,
+    ground_height,
+    is_forbidden,
+    surface,
+)
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3, distance, dot, length, load_vec3, store_vec3
 from polypod.paths.curve import PATH_KNOTS, PathRow
@@ -24,30 +32,38 @@ BLEND = 0.35
 
 
 @kernel
-def obstacles_near(env: EnvironmentTable, x0: float, z0: float, x1: float, z1: float) -> bool:
-    """Return whether any obstacle's bounds meet the rectangle in plan; world, m."""
-    rows = env.bucket_shape[0]
-    columns = env.bucket_shape[1]
-    if rows == 0 or columns == 0:
-        return False
-    side = env.bucket_place[2]
-    first_row = max(math.floor((z0 - env.bucket_place[1]) / side), 0)
-    last_row = min(math.floor((z1 - env.bucket_place[1]) / side), rows - 1)
-    first_column = max(math.floor((x0 - env.bucket_place[0]) / side), 0)
-    last_column = min(math.floor((x1 - env.bucket_place[0]) / side), columns - 1)
-    for row in range(first_row, last_row + 1):
-        for column in range(first_column, last_column + 1):
-            bucket = row * columns + column
-            for item in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
-                o = env.bucket_item[item]
+def obstacles_near(
+    env: EnvironmentTable, x0: float, z0: float, x1: float, z1: float, above: float, near: Any
+) -> int:
+    """List the obstacles whose bounds meet a rectangle in plan; return how many there are.
+
+    Only those count that are forbidden or reach higher than `above` (m). As many as fit are written
+    to `near`; the count goes on.
+    """
+    if env.bucket_shape[0] == 0:
+        return 0
+    left = bucket_line(env.bucket_place, env.bucket_shape, x0, 0)
+    right = bucket_line(env.bucket_place, env.bucket_shape, x1, 0)
+    top = bucket_line(env.bucket_place, env.bucket_shape, z0, 1)
+    bottom = bucket_line(env.bucket_place, env.bucket_shape, z1, 1)
+    count = 0
+    for row in range(top, bottom + 1):
+        for column in range(left, right + 1):
+            bucket = row * env.bucket_shape[1] + column
+            for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
+                o = env.bucket_item[i]
                 if (
                     env.bounds[o, 0] <= x1
                     and env.bounds[o, 3] >= x0
                     and env.bounds[o, 2] <= z1
                     and env.bounds[o, 5] >= z0
+                    and (env.forbidden[o] or env.bounds[o, 4] > above)
+                    and first_met(env.bucket_range, o, row, column, top, left)
                 ):
-                    return True
-    return False
+                    if count < near.shape[0]:
+                        near[count] = o
+                    count += 1
+    return count
 
 
 @kernel
@@ -133,36 +149,63 @@ def foot_top(env: EnvironmentTable, request: StepRequest, x: float, z: float, gr
 
 
 @kernel
+def meets_near(
+    env: EnvironmentTable, near: Any, count: int, x: float, z: float, margin: float, height: float
+) -> int:
+    """Return 0 where no listed obstacle can matter to a foot at a place, 2 for a forbidden one.
+
+    1 for others: within `margin` (m) of the obstacle's bounds in plan, and higher than `height`.
+    """
+    found = 0
+    for i in range(count):
+        o = near[i]
+        if (
+            x + margin >= env.bounds[o, 0]
+            and x - margin <= env.bounds[o, 3]
+            and z + margin >= env.bounds[o, 2]
+            and z - margin <= env.bounds[o, 5]
+        ):
+            if env.forbidden[o]:
+                return 2
+            if env.bounds[o, 4] > height:
+                found = 1
+    return found
+
+
+@kernel
 def require(
     env: EnvironmentTable, settings: PlanSettings, request: StepRequest, lift: LiftScratch
 ) -> bool:
     """Write what the path must clear; return False where it meets something forbidden.
 
     The foot's shape and the clearance come in over the first and last stretch: where the sole
-    stands it touches the ground and fits between its neighbours.
+    stands it touches the ground and fits between its neighbours. Obstacles that are too far away or
+    lower than the step's arc are not asked.
     """
     leg = request.leg_length
-    reach_x = max(request.foot_half_x, request.foot_half_z)
-    full = reach_x + settings.toe * leg
+    foot = max(request.foot_half_x, request.foot_half_z)
+    full = foot + settings.toe * leg
+    barred = full + settings.forbidden_margin * leg
+    clearance = settings.clearance * leg
+    wide = 1.5 * full + settings.forbidden_margin * leg
     x0 = x1 = lift.knot[0, 0]
     z0 = z1 = lift.knot[0, 1]
+    lowest = lift.arc[0]
     for k in range(1, PATH_KNOTS):
         x0 = min(x0, lift.knot[k, 0])
         x1 = max(x1, lift.knot[k, 0])
         z0 = min(z0, lift.knot[k, 1])
         z1 = max(z1, lift.knot[k, 1])
-    wide = 1.5 * full + settings.forbidden_margin * leg
-    crowded = obstacles_near(env, x0 - wide, z0 - wide, x1 + wide, z1 + wide)
-    if not crowded and env.terrain_range[0] == env.terrain_range[1]:
-        for k in range(PATH_KNOTS):
-            lift.ground[k] = env.terrain_range[0]
+        lowest = min(lowest, lift.arc[k])
+    count = obstacles_near(env, x0 - wide, z0 - wide, x1 + wide, z1 + wide, lowest, lift.near)
+    listed = min(count, lift.near.shape[0])
+    level = env.terrain_range[0] == env.terrain_range[1]
     total = lift.station[LAST]
-    stretch = 2.0 * full + settings.clearance * leg
+    stretch = 2.0 * full + clearance
     for k in range(1, PATH_KNOTS):
-        if not crowded and env.terrain_range[0] == env.terrain_range[1]:
-            break
         span = lift.station[k] - lift.station[k - 1]
-        samples = math.ceil(span / (SAMPLE * leg))
+        samples = 1 if level and count == 0 else math.ceil(span / (SAMPLE * leg))
+        arc = min(lift.arc[k - 1], lift.arc[k])
         top = -1e300
         for j in range(samples):
             u = (j + 1.0) / samples
@@ -170,14 +213,16 @@ def require(
             share = min(min(at, total - at) / stretch, 1.0)
             x = lift.knot[k - 1, 0] + (lift.knot[k, 0] - lift.knot[k - 1, 0]) * u
             z = lift.knot[k - 1, 1] + (lift.knot[k, 1] - lift.knot[k - 1, 1]) * u
-            if crowded:
-                margin = (full + settings.forbidden_margin * leg) * share
-                if is_forbidden(env, x, z, margin):
-                    return False
-                height = foot_top(env, request, x, z, full * share - reach_x)
+            met = 2
+            if count == listed:
+                met = meets_near(env, lift.near, count, x, z, wide, arc - clearance)
+            if met == 2 and is_forbidden(env, x, z, barred * share):
+                return False
+            if met > 0:
+                height = foot_top(env, request, x, z, full * share - foot)
             else:
-                height, _ = surface(env, x, z)
-            top = max(top, height + settings.clearance * leg * share)
+                height = ground_height(env, x, z)
+            top = max(top, height + clearance * share)
         lift.ground[k] = top
     lift.need[0] = lift.arc[0]
     lift.need[LAST] = lift.arc[LAST]

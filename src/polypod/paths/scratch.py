@@ -17,6 +17,8 @@ BoolArray = NDArray[np.bool_]
 PLAN_POINTS = 160
 # Most corners of a path in plan.
 WAYPOINTS = 24
+# Obstacles about a path that are told apart; where there are more, all samples ask all.
+NEAR = 48
 # A step costs at most 14 + POTENTIAL, so that this many buckets hold a wavefront's front.
 BUCKETS = 32
 
@@ -42,6 +44,7 @@ class LiftScratch(NamedTuple):
     height: FloatArray  # [N] m, of the curve over the hull of the requirement
     slope: FloatArray  # [N] its derivative with respect to the station
     hull: IntArray  # [N] knots on the hull
+    near: IntArray  # [NEAR] obstacles about the path
 
 
 class GridScratch(NamedTuple):
@@ -71,6 +74,7 @@ def lift_scratch() -> LiftScratch:
         height=np.zeros(PATH_KNOTS),
         slope=np.zeros(PATH_KNOTS),
         hull=np.zeros(PATH_KNOTS, np.int64),
+        near=np.zeros(NEAR, np.int64),
     )
 
 
