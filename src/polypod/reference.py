@@ -19,7 +19,7 @@ import numba
 import numpy as np
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils, imputils
+from numba.core import cgutils, config, imputils
 from numba.core.datamodel import models
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import (
@@ -36,7 +36,7 @@ Tuple = TypeVar("Tuple", bound=tuple[Any, ...])
 WORD = 8
 
 
-class ReferenceType(types.Type):  # type: ignore[misc]
+class ReferenceType(types.Type):
     """Numba's type of a reference: the fields, their types, and the first word of each."""
 
     def __init__(self, tuple_name: str, fields: tuple[tuple[str, Any, int], ...]) -> None:
@@ -89,7 +89,7 @@ class Reference:
 
 def by_reference(value: Tuple) -> Tuple:
     """Return what kernels take in place of a named tuple: a reference, or itself without JIT."""
-    if numba.config.DISABLE_JIT:
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return value
     return Reference(value)  # type: ignore[return-value]
 
@@ -111,10 +111,10 @@ def _unbox_reference(kind: ReferenceType, value: Any, c: Any) -> NativeValue:
 
 
 @infer_getattr
-class _ReferenceFields(AttributeTemplate):  # type: ignore[misc]
+class _ReferenceFields(AttributeTemplate):
     key = ReferenceType
 
-    def generic_resolve(self, kind: ReferenceType, name: str) -> Any:
+    def generic_resolve(self, kind: Any, name: str) -> Any:  # type: ignore[override]
         found = kind.field(name)
         return None if found is None else found[0]
 

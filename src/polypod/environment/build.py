@@ -52,7 +52,7 @@ def build_table(terrain: Terrain, obstacles: Sequence[Obstacle]) -> EnvironmentT
         bucket_shape=shape,
         bucket_start=start,
         bucket_item=item,
-        bucket_range=spread,
+        bucket_range=np.ascontiguousarray(spread),
     )
 
 
