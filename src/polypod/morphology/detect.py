@@ -66,8 +66,8 @@ def detect_legs(skeleton: Skeleton) -> tuple[list[tuple[int, int]], list[str]]:
     if not legs:
         joints = [skeleton.label(n) for n in range(len(skeleton.name)) if skeleton.is_joint[n]]
         raise RigError(
-            f"{skeleton.document.name}: no legs were found, for no limb with skin reaches the ground "
-            f"at rest; name them with --leg HIP:FOOT, from {choices(joints)}"
+            f"{skeleton.document.name}: no legs were found, for no limb with skin reaches the "
+            f"ground at rest; name them with --leg HIP:FOOT, from {choices(joints)}"
         )
     named = ", ".join(f"{skeleton.label(leg.hip)}:{skeleton.label(leg.foot)}" for leg in legs)
     guesses = [f"its legs were detected: {named}; --leg HIP:FOOT names others"]

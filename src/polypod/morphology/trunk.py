@@ -14,6 +14,9 @@ from polypod.morphology.skeleton import Skeleton
 FloatArray = NDArray[np.float64]
 
 HEAD_NAMES = ("head", "skull")
+AROUND = 0.15  # of a leg's length: joints this near to the hips carry the trunk
+LEAST = 0.02  # of a leg's length
+NOT_TRUNK = ("tail", "arm", "hand")
 NOT_HEAD = ("tail", "back", "abdomen")
 
 
@@ -35,32 +38,37 @@ def body_centre(hip: FloatArray) -> FloatArray:
 def measure_trunk(
     skeleton: Skeleton, limbs: list[Limb], hip: FloatArray, centre: FloatArray
 ) -> Trunk:
-    """Measure the trunk's box and its belly from the skin that no leg carries."""
+    """Measure the trunk's box and its belly: the skin near the hips that no leg carries."""
     length = float(np.mean([limb.length for limb in limbs]))
-    leg_nodes: set[int] = set()
-    for limb in limbs:
-        for node in (limb.joints[0], limb.sole_node, *limb.rides):
-            leg_nodes.update(skeleton.below(node))
-    skin = skeleton.vertex[skeleton.share(sorted(leg_nodes)) < 0.5]
+    in_leg = _leg_nodes(skeleton, limbs)
+    skin = skeleton.vertex[skeleton.share(sorted(in_leg)) < 0.5]
     low, high = hip.min(axis=0), hip.max(axis=0)
-    least = 0.05 * length
+    least = LEAST * length
     if not len(skin):
-        half = np.maximum(0.5 * (high - low), least)
-        return Trunk(least, half, 0.5 * (low + high))
-    # The box is that of nearly all the skin: whiskers and tips of ears do not make a trunk.
-    box_low, box_high = np.percentile(skin, [1.0, 99.0], axis=0)
-    over_legs = np.all(
-        (skin[:, [0, 2]] >= low[[0, 2]] - [least, 0.2 * length])
-        & (skin[:, [0, 2]] <= high[[0, 2]] + [least, 0.2 * length]),
-        axis=1,
-    )
-    belly = skin[over_legs] if over_legs.any() else skin
-    thickness = float(centre[1] - np.percentile(belly[:, 1], 2.0))
+        return Trunk(least, np.maximum(0.5 * (high - low), least), 0.5 * (low + high))
+    over_legs = [
+        node
+        for node in np.flatnonzero(skeleton.weight > 0.0).tolist()
+        if node not in in_leg
+        and np.all(skeleton.position[node, [0, 2]] >= low[[0, 2]] - AROUND * length)
+        and np.all(skeleton.position[node, [0, 2]] <= high[[0, 2]] + AROUND * length)
+        and not has_word(skeleton.name[node], *NOT_TRUNK)
+    ]
+    near = skeleton.vertex[skeleton.share(over_legs) >= 0.5]
+    trunk = near if len(near) else skin
+    # Single spikes and hairs do not make a box, but the belly is as low as it is.
+    box_low, box_high = np.percentile(trunk, [1.0, 99.0], axis=0)
     return Trunk(
-        max(thickness, 0.02 * length),
-        np.maximum(0.5 * (box_high - box_low), 0.02 * length),
+        max(float(centre[1] - trunk[:, 1].min()), least),
+        np.maximum(0.5 * (box_high - box_low), least),
         0.5 * (box_low + box_high),
     )
+
+
+def _leg_nodes(skeleton: Skeleton, limbs: list[Limb]) -> set[int]:
+    """Return all nodes that move with a leg."""
+    tops = {node for limb in limbs for node in (limb.joints[0], limb.sole_node, *limb.rides)}
+    return {node for top in tops for node in skeleton.below(top)}
 
 
 def find_spine(skeleton: Skeleton, limbs: list[Limb], hip: FloatArray) -> list[int]:
@@ -71,8 +79,7 @@ def find_spine(skeleton: Skeleton, limbs: list[Limb], hip: FloatArray) -> list[i
     """
     length = float(np.mean([limb.length for limb in limbs]))
     middle = 0.5 * float(hip[:, 0].min() + hip[:, 0].max())
-    in_leg = {node for limb in limbs for node in skeleton.below(limb.joints[0])}
-    in_leg |= {node for limb in limbs for node in skeleton.below(limb.sole_node)}
+    in_leg = _leg_nodes(skeleton, limbs)
     usable = [
         node
         for node in range(len(skeleton.name))

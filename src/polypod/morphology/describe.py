@@ -1,0 +1,136 @@
+"""What was found in a rig, as text: `polypod rig` prints it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from polypod.morphology.types import Morphology
+
+SIDES = {1: "left", 0: "middle", -1: "right"}
+
+
+def describe(morphology: Morphology) -> str:
+    """Return a description of what was found: sizes, legs, limits, spine, joints and guesses.
+
+    Sizes are in metres, angles in degrees.
+    """
+    parts = [_size(morphology), _legs(morphology), _limits(morphology), _spine(morphology)]
+    parts += [_joints(morphology), _guesses(morphology)]
+    return "\n\n".join(part for part in parts if part)
+
+
+def joint_label(morphology: Morphology, row: int) -> str:
+    """Return a joint's name, or # and its node index where it has none of its own."""
+    name = morphology.joint_name[row]
+    unique = name and morphology.joint_name.count(name) == 1
+    return name if unique else f"#{morphology.joint_node[row]} {name}".rstrip()
+
+
+def _size(morphology: Morphology) -> str:
+    body, legs = morphology.body, morphology.legs
+    width, height, length = 2.0 * body.half_size
+    scale = float(np.cbrt(np.linalg.det(morphology.source.body_from_file[:3, :3])))
+    return "\n".join(
+        [
+            f"{morphology.name}: {_count(len(legs.length), 'leg')}, "
+            f"{_count(len(morphology.joint_name), 'joint')}, one file unit is {scale:.4g} m",
+            f"body centre {body.height:.4g} m above the ground in stance, belly "
+            f"{body.thickness:.4g} m below it",
+            f"trunk {width:.4g} wide, {height:.4g} high, {length:.4g} long (m)",
+        ]
+    )
+
+
+def _legs(morphology: Morphology) -> str:
+    lines = ["legs, 0 hindmost (lengths and places in m from the body centre: left, up, forward)"]
+    legs = morphology.legs
+    for k, foot in enumerate(morphology.foot_name):
+        turned = int(legs.joint_count[k])
+        chain = " > ".join(joint_label(morphology, int(row)) for row in legs.joint[k, :turned])
+        end = "the sole is fixed to the last"
+        if legs.foot_joint[k] >= 0:
+            end = f"then the foot {joint_label(morphology, int(legs.foot_joint[k]))}"
+        sections = np.linalg.norm(np.diff(legs.point_rest[k, : turned + 1], axis=0), axis=1)
+        at_rest, in_stance = extensions(morphology)[:, k]
+        posture = "upright" if legs.upright[k] else "sprawling"
+        lines += [
+            f"  {foot}: row {legs.row[k]} {SIDES[int(legs.side[k])]}, {posture}, "
+            f"{legs.length[k]:.4g} long, sections {' '.join(f'{s:.4g}' for s in sections)}",
+            f"    {chain}; {end}",
+            f"    extended {at_rest:.0%} at rest, {in_stance:.0%} in stance; sole at "
+            f"{_place(legs.sole_stance[k])}, {_size_of_foot(legs.foot_half_size[k])}",
+        ]
+    return "\n".join(lines)
+
+
+def extensions(morphology: Morphology) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """Return [2, K]: hip to effector over the length of the chain, at rest and in stance."""
+    legs = morphology.legs
+    found = np.zeros((2, len(legs.length)))
+    for k in range(len(legs.length)):
+        points = legs.point_rest[k, : int(legs.joint_count[k]) + 1]
+        chain = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+        shift = legs.sole_stance[k] - legs.sole_rest[k]
+        found[0, k] = np.linalg.norm(points[-1] - points[0]) / chain
+        found[1, k] = np.linalg.norm(points[-1] + shift - points[0]) / chain
+    return found
+
+
+def _limits(morphology: Morphology) -> str:
+    legs, lines = morphology.legs, []
+    for k in range(len(legs.length)):
+        for m in range(int(legs.joint_count[k])):
+            joint = joint_label(morphology, int(legs.joint[k, m]))
+            if m == 0 and np.isfinite(legs.hip_limit[k]).any():
+                names = ("flexion", "sideways", "twist")
+                angles = zip(names, np.degrees(legs.hip_limit[k]), strict=True)
+                said = ", ".join(f"{name} {a:.0f}" for name, a in angles if np.isfinite(a))
+                lines.append(f"  {joint}: {said} degrees")
+            elif np.isfinite(legs.bend_limit[k, m]).all():
+                low, high = np.degrees(legs.bend_limit[k, m])
+                lines.append(f"  {joint}: bend {low:.0f} to {high:.0f} degrees about the rest")
+    if not lines:
+        return "joint limits: defaults from the rest pose's bends; a creature file sets others"
+    return "\n".join(["joint limits (others: defaults from the rest pose's bends)", *lines])
+
+
+def _spine(morphology: Morphology) -> str:
+    if not morphology.spine:
+        return "spine: none, the trunk moves as one piece; --spine J,J,... names one"
+    return "spine: " + " > ".join(joint_label(morphology, row) for row in morphology.spine)
+
+
+def _joints(morphology: Morphology) -> str:
+    depth = np.zeros(len(morphology.joint_name), np.int64)
+    children: dict[int, list[int]] = {}
+    for row, parent in enumerate(morphology.joint_parent):
+        depth[row] = 0 if parent < 0 else depth[parent] + 1
+        children.setdefault(int(parent), []).append(row)
+    lines, waiting = ["joints (node: place at rest in m from the body centre)"], [-1]
+    while waiting:
+        row = waiting.pop()
+        if row >= 0:
+            indent = "  " * (int(depth[row]) + 1)
+            name = morphology.joint_name[row] or "without a name"
+            place = _place(morphology.joint_rest[row])
+            lines.append(f"{indent}{name} (#{morphology.joint_node[row]}: {place})")
+        waiting.extend(reversed(children.get(row, [])))
+    return "\n".join(lines)
+
+
+def _guesses(morphology: Morphology) -> str:
+    if not morphology.guesses:
+        return "guessed: nothing"
+    return "\n".join(["guessed:", *(f"  {guess}" for guess in morphology.guesses)])
+
+
+def _place(place: np.ndarray[tuple[int], np.dtype[np.float64]]) -> str:
+    return " ".join(f"{value + 0.0:.4g}" for value in np.round(place, 6))
+
+
+def _size_of_foot(half_size: np.ndarray[tuple[int], np.dtype[np.float64]]) -> str:
+    return f"{2.0 * half_size[0]:.3g} wide, {2.0 * half_size[1]:.3g} long"
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"
