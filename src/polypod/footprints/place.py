@@ -7,7 +7,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable, is_forbidden, is_wet, surface
-from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
 from polypod.math.vec3 import Vec3, distance
 from polypod.paths.check import leg_contact
 from polypod.paths.lift import obstacles_near
@@ -28,8 +28,10 @@ LOWEST = -1e300
 @kernel
 def even_score(
     env: EnvironmentTable,
-    settings: PlanSettings,
-    request: StepRequest,
+    foot: FootShape,
+    toe: float,
+    steepest: float,
+    tolerance: float,
     x: float,
     y: float,
     z: float,
@@ -39,18 +41,17 @@ def even_score(
     Four points on the shape's outline give the plane; four more, further out, tell what part of the
     surroundings continues it: beside an edge or a wall the score falls to half.
     """
-    leg = request.leg_length
-    sine = math.sin(request.foot_yaw)
-    cosine = math.cos(request.foot_yaw)
-    half_x = request.foot_half_x + settings.toe * leg
-    half_z = request.foot_half_z + settings.toe * leg
+    sine = foot.sine
+    cosine = foot.cosine
+    half_x = foot.half_x + toe
+    half_z = foot.half_z + toe
     east, _ = surface(env, x + half_x * cosine, z - half_x * sine)
     west, _ = surface(env, x - half_x * cosine, z + half_x * sine)
     north, _ = surface(env, x + half_z * sine, z + half_z * cosine)
     south, _ = surface(env, x - half_z * sine, z - half_z * cosine)
     slope_x = (east - west) / (2.0 * half_x)
     slope_z = (north - south) / (2.0 * half_z)
-    if slope_x * slope_x + slope_z * slope_z > settings.slope * settings.slope:
+    if slope_x * slope_x + slope_z * slope_z > steepest * steepest:
         return REJECTED
     rough = max(abs(east + west - 2.0 * y), abs(north + south - 2.0 * y)) * 0.5
     for corner in range(4):
@@ -58,36 +59,34 @@ def even_score(
         b = half_z if corner % 2 == 0 else -half_z
         height, _ = surface(env, x + a * cosine + b * sine, z - a * sine + b * cosine)
         rough = max(rough, abs(height - y - slope_x * a - slope_z * b))
-    tolerance = settings.uneven * leg
     return REJECTED if rough > tolerance else 1.0 - rough / tolerance
 
 
 @kernel
 def edge_score(
     env: EnvironmentTable,
-    settings: PlanSettings,
-    request: StepRequest,
+    foot: FootShape,
+    out: float,
+    steepest: float,
+    drop: float,
     x: float,
     y: float,
     z: float,
 ) -> float:
     """Return the share of a ring about the foot that continues its surface without edge or wall."""
-    leg = request.leg_length
-    ring_x = request.foot_half_x + settings.edge * leg
-    ring_z = request.foot_half_z + settings.edge * leg
-    sine = math.sin(request.foot_yaw)
-    cosine = math.cos(request.foot_yaw)
+    ring_x = foot.half_x + out
+    ring_z = foot.half_z + out
     good = 0.0
     for k in range(4):
         # Opposite points: on any slope their mean is the height between them.
         a = ring_x * (1.0 if k == 0 else (0.7 if k != 2 else 0.0))
         b = ring_z * (1.0 if k == 2 else (0.7 if k == 1 else (-0.7 if k == 3 else 0.0)))
-        dx = a * cosine + b * sine
-        dz = -a * sine + b * cosine
+        dx = a * foot.cosine + b * foot.sine
+        dz = -a * foot.sine + b * foot.cosine
         there, _ = surface(env, x + dx, z + dz)
         opposite, _ = surface(env, x - dx, z - dz)
-        steep = max(abs(there - y), abs(opposite - y)) > settings.slope * math.hypot(dx, dz)
-        if abs(there + opposite - 2.0 * y) <= settings.drop * leg and not steep:
+        steep = max(abs(there - y), abs(opposite - y)) > steepest * math.hypot(dx, dz)
+        if abs(there + opposite - 2.0 * y) <= drop and not steep:
             good += 0.25
     return good
 
@@ -95,8 +94,7 @@ def edge_score(
 @kernel
 def exit_score(
     env: EnvironmentTable,
-    settings: PlanSettings,
-    request: StepRequest,
+    margin: float,
     x: float,
     z: float,
     high: float,
@@ -106,11 +104,9 @@ def exit_score(
     """Return how well the next step can leave the place: 1 ahead, less to the sides, 0 not at all.
 
     Pockets between forbidden or very high things (above `high`, m) trap legs. `heading` is the
-    course and `step` the length of the coming stance (rad, m).
+    course and `step` the length of the coming stance (rad, m); `margin` (m) is kept from what is
+    forbidden.
     """
-    margin = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * (
-        request.leg_length
-    )
     best = 0.0
     for k in range(EXITS):
         # 0, +, -, 2+, 2-: mirrored pairs, so that no side is favoured.
@@ -218,17 +214,22 @@ def judge_place(
     if reach < 0.0 or is_wet(env, x, z):
         return REJECTED, y
     leg = request.leg_length
-    foot = max(request.foot_half_x, request.foot_half_z)
-    if is_forbidden(env, x, z, foot + settings.forbidden_margin * leg):
+    foot = foot_shape(request)
+    margin = foot.radius + settings.forbidden_margin * leg
+    if is_forbidden(env, x, z, margin):
         return REJECTED, y
     even = edge = leave = 1.0
     level = env.terrain_range[0] == env.terrain_range[1]
-    wide = 1.5 * (foot + max(settings.edge, settings.toe) * leg)
+    wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
     if not level or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
-        even = even_score(env, settings, request, x, y, z)
+        even = even_score(
+            env, foot, settings.toe * leg, settings.slope, settings.uneven * leg, x, y, z
+        )
         if even < 0.0:
             return REJECTED, y
-        edge = edge_score(env, settings, request, x, y, z)
+        edge = edge_score(
+            env, foot, settings.edge * leg, settings.slope, settings.drop * leg, x, y, z
+        )
     course_x = request.hip_end_of_stance.x - request.hip_touchdown.x
     course_z = request.hip_end_of_stance.z - request.hip_touchdown.z
     step = math.hypot(course_x, course_z)
@@ -238,7 +239,7 @@ def judge_place(
         or obstacles_near(env, x - step, z - step, x + step, z + step, high, near) > 0
     ):
         heading = math.atan2(course_x, course_z)
-        leave = exit_score(env, settings, request, x, z, high, heading, step)
+        leave = exit_score(env, margin, x, z, high, heading, step)
     factor = leg_factor(settings, request, legs, x, y, z)
     if factor < 0.0:
         return REJECTED, y

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
@@ -26,6 +27,7 @@ from polypod.paths.curve import PATH_KNOTS, PathRow
 from polypod.paths.grid import highest_on_line, line_of_sight, spread_wavefront
 from polypod.paths.lift import (
     BLEND,
+    SHORTEST,
     arc_start,
     lift_path,
     place_knots,
@@ -75,7 +77,9 @@ def try_pair(
     against the true shapes; where it touches them it is raised there once.
     """
     phase, height = arc_start(env, request, end.y)
-    place_knots(lift, points, request, end, phase, height)
+    leg = request.leg_length
+    foot = max(request.foot_half_x, request.foot_half_z)
+    place_knots(lift, points, request.start_world, end, SHORTEST * leg, phase, height)
     for k in range(PATH_KNOTS):
         lift.extra[k] = 0.0
     blend = BLEND
@@ -84,11 +88,11 @@ def try_pair(
             return NOTHING, 0.0
         quality = path_score(settings, lift, points)
         pair = (1.0 - settings.weight_path) * place_score + settings.weight_path * quality
-        if pair <= best or out_of_reach(settings, request, trial):
+        if pair <= best or out_of_reach(request, settings.reach, trial):
             return NOTHING, 0.0
-        if meets_legs(settings, request, legs, trial):
+        if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
             return NOTHING, 0.0
-        if deepest(env, settings, request, trial, lift.extra) <= 0.0:
+        if deepest(env, settings.penetration * leg, trial, lift.extra) <= 0.0:
             return pair, quality
         blend *= 0.25
     return NOTHING, 0.0
@@ -129,74 +133,80 @@ def fill_window(
 
 @kernel
 def place_slices(
-    settings: PlanSettings, request: StepRequest, scratch: PlanScratch, kept: int, floor: float
+    grid: GridScratch,
+    highest: Any,
+    window_place: Any,
+    n: int,
+    places: Any,
+    kept: int,
+    start: Vec3,
+    floor: float,
+    limit: int,
+    thinnest: float,
 ) -> int:
     """Write the levels of the slices, from above, and return how many there are.
 
-    Layer 0 goes over everything. The others lie between the ground and the highest thing on the
-    straight lines to the candidates; what is lower than one slice is always stepped over.
+    Layer 0 goes over everything. The others, at most `limit`, lie between the ground (`floor`, m)
+    and the highest thing on the straight lines to the candidates, `thinnest` m or more apart; what
+    is lower than one slice is always stepped over.
     """
-    window = scratch.window
-    cell = window.place[2]
-    u = (request.start_world.x - window.place[0]) / cell
-    v = (request.start_world.z - window.place[1]) / cell
+    cell = window_place[2]
+    u = (start.x - window_place[0]) / cell
+    v = (start.z - window_place[1]) / cell
     top = floor
     for k in range(kept):
-        to_u = (scratch.found.place[k, 0] - window.place[0]) / cell
-        to_v = (scratch.found.place[k, 2] - window.place[1]) / cell
-        top = max(top, highest_on_line(window.highest, window.size[0], u, v, to_u, to_v))
-    limit = min(settings.slice_limit, scratch.grid.level.shape[0] - 1)
-    scratch.grid.level[0] = OVER_ALL
-    scratch.grid.spread[0] = 0
-    thickness = max(settings.slice_thickness * request.step_height, (top - floor) / (limit + 1.0))
+        to_u = (places[k, 0] - window_place[0]) / cell
+        to_v = (places[k, 2] - window_place[1]) / cell
+        top = max(top, highest_on_line(highest, n, u, v, to_u, to_v))
+    limit = min(limit, grid.level.shape[0] - 1)
+    grid.level[0] = OVER_ALL
+    grid.spread[0] = 0
+    thickness = max(thinnest, (top - floor) / (limit + 1.0))
     slices = 1
     while slices <= limit and floor + thickness * slices < top:
         slices += 1
     for layer in range(1, slices):
-        scratch.grid.level[layer] = floor + thickness * (slices - layer)
-        scratch.grid.spread[layer] = 0
+        grid.level[layer] = floor + thickness * (slices - layer)
+        grid.spread[layer] = 0
     return slices
 
 
 @kernel
-def plan_top(window: LocalMap, lift: LiftScratch, points: int) -> float:
+def plan_top(highest: Any, place: Any, n: int, plan: Any, points: int) -> float:
     """Return the highest cell under a path in plan."""
-    n = window.size[0]
-    cell = window.place[2]
     top = -OVER_ALL
     for k in range(points - 1):
-        u = (lift.plan[k, 0] - window.place[0]) / cell
-        v = (lift.plan[k, 1] - window.place[1]) / cell
-        to_u = (lift.plan[k + 1, 0] - window.place[0]) / cell
-        to_v = (lift.plan[k + 1, 1] - window.place[1]) / cell
-        top = max(top, highest_on_line(window.highest, n, u, v, to_u, to_v))
+        u = (plan[k, 0] - place[0]) / place[2]
+        v = (plan[k, 1] - place[1]) / place[2]
+        to_u = (plan[k + 1, 0] - place[0]) / place[2]
+        to_v = (plan[k + 1, 1] - place[1]) / place[2]
+        top = max(top, highest_on_line(highest, n, u, v, to_u, to_v))
     return top
 
 
 @kernel
 def plan_layer(
-    request: StepRequest,
-    window: LocalMap,
     grid: GridScratch,
     lift: LiftScratch,
+    highest: Any,
+    place: Any,
+    n: int,
     layer: int,
+    start: Vec3,
     end: Vec3,
     row: int,
     column: int,
 ) -> int:
     """Write the shortest path in plan to a place within a slice; return its points, 0: no way."""
-    n = window.size[0]
-    cell = window.place[2]
-    start = request.start_world
-    u = (start.x - window.place[0]) / cell
-    v = (start.z - window.place[1]) / cell
-    to_u = (end.x - window.place[0]) / cell
-    to_v = (end.z - window.place[1]) / cell
-    if line_of_sight(grid.closed, window.highest, grid.level[layer], n, u, v, to_u, to_v):
+    u = (start.x - place[0]) / place[2]
+    v = (start.z - place[1]) / place[2]
+    to_u = (end.x - place[0]) / place[2]
+    to_v = (end.z - place[1]) / place[2]
+    if line_of_sight(grid.closed, highest, grid.level[layer], n, u, v, to_u, to_v):
         return straight_plan(lift, start, end)
     if grid.spread[layer] == 0:
-        spread_wavefront(grid, window.highest, n, layer, int(v), int(u))
-    return plan_around(grid, lift, window.highest, window.place, n, layer, start, end, row, column)
+        spread_wavefront(grid, highest, n, layer, int(v), int(u))
+    return plan_around(grid, lift, highest, place, n, layer, start, end, row, column)
 
 
 @kernel
@@ -218,6 +228,7 @@ def best_pair(
     place, by its path in plan, or by its path in 3D.
     """
     lift = scratch.lift
+    window = scratch.window
     for k in range(kept):
         place_score = scratch.found.score[k]
         if (1.0 - settings.weight_path) * place_score + settings.weight_path <= best:
@@ -234,11 +245,20 @@ def best_pair(
             row = scratch.found.place_cell[k, 0]
             column = scratch.found.place_cell[k, 1]
             points = plan_layer(
-                request, scratch.window, scratch.grid, lift, layer, end, row, column
+                scratch.grid,
+                lift,
+                window.highest,
+                window.place,
+                window.size[0],
+                layer,
+                request.start_world,
+                end,
+                row,
+                column,
             )
             if points == 0:
                 break  # and no way in the slices below
-            top = plan_top(scratch.window, lift, points)
+            top = plan_top(window.highest, window.place, window.size[0], lift.plan, points)
             bound = path_score_bound(
                 settings,
                 direct,
@@ -329,7 +349,18 @@ def plan_step(
         scratch.found.place_cell[0, 0] = int((end.z - window.place[1]) / window.place[2])
         scratch.found.place_cell[0, 1] = int((end.x - window.place[0]) / window.place[2])
     kept = judge_candidates(env, settings, request, legs, window, cells, near, scratch.found, kept)
-    slices = place_slices(settings, request, scratch, kept, max(start.y, y))
+    slices = place_slices(
+        scratch.grid,
+        window.highest,
+        window.place,
+        window.size[0],
+        scratch.found.place,
+        kept,
+        start,
+        max(start.y, y),
+        settings.slice_limit,
+        settings.slice_thickness * request.step_height,
+    )
     best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
     scratch.tally[TALLY_CANDIDATES] = kept
     for layer in range(slices):

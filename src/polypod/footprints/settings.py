@@ -6,8 +6,10 @@ alike.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
+from polypod.compute import kernel
 from polypod.math.vec3 import Vec3
 
 
@@ -57,6 +59,16 @@ class PlanSettings(NamedTuple):
     weight_path: float = 0.5  # share of the path in a pair's score, the rest is the place's
 
 
+class FootShape(NamedTuple):
+    """The sole's shape as it lies in the world: half extents in m, and its turn."""
+
+    half_x: float
+    half_z: float
+    sine: float  # of the heading
+    cosine: float
+    radius: float  # m, the larger half extent
+
+
 class StepRequest(NamedTuple):
     """One foot's step: world frame, metres, seconds, radians."""
 
@@ -83,3 +95,15 @@ class StepRequest(NamedTuple):
     speed_limit: float  # m/s, the most the foot may move at; infinite where there is none
     search_radius: float  # m, about the preferred place
     other_foot_count: int  # segments of other legs in the scratch
+
+
+@kernel
+def foot_shape(request: StepRequest) -> FootShape:
+    """Return the shape of the foot that is asked about."""
+    return FootShape(
+        request.foot_half_x,
+        request.foot_half_z,
+        math.sin(request.foot_yaw),
+        math.cos(request.foot_yaw),
+        max(request.foot_half_x, request.foot_half_z),
+    )

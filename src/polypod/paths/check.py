@@ -7,7 +7,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable, penetration
-from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.footprints.settings import StepRequest
 from polypod.math.hermite import hermite
 from polypod.math.vec3 import distance, load_vec3, mix
 from polypod.paths.curve import PATH_KNOTS, PathRow
@@ -37,23 +37,20 @@ def leg_contact(legs: OtherLegs, s: int, x: float, z: float) -> tuple[float, flo
 
 
 @kernel
-def meets_legs(
-    settings: PlanSettings, request: StepRequest, legs: OtherLegs, path: PathRow
-) -> bool:
+def meets_legs(legs: OtherLegs, count: int, gap_wanted: float, path: PathRow) -> bool:
     """Return whether the foot would meet another leg on the path.
 
     A leg hangs above its sole, so passing beneath another leg is as bad as passing through it. A
-    foot that starts beside another leg may stay as near as it is.
+    foot that starts beside another leg may stay as near as it is. `count` segments are there;
+    `gap_wanted` (m) is the foot's radius and the room beside it.
     """
-    foot = max(request.foot_half_x, request.foot_half_z)
-    start = request.start_world
-    for s in range(request.other_foot_count):
-        clear = legs.radius[s] + foot + settings.leg_gap * request.leg_length
+    for s in range(count):
+        clear = legs.radius[s] + gap_wanted
         x0 = min(legs.a[s, 0], legs.b[s, 0]) - clear
         x1 = max(legs.a[s, 0], legs.b[s, 0]) + clear
         z0 = min(legs.a[s, 2], legs.b[s, 2]) - clear
         z1 = max(legs.a[s, 2], legs.b[s, 2]) + clear
-        at_start, _ = leg_contact(legs, s, start.x, start.z)
+        at_start, _ = leg_contact(legs, s, path.point[0, 0], path.point[0, 2])
         allowed = min(clear, 0.999 * at_start)
         for k in range(1, PATH_KNOTS):
             x = path.point[k, 0]
@@ -67,20 +64,20 @@ def meets_legs(
 
 
 @kernel
-def out_of_reach(settings: PlanSettings, request: StepRequest, path: PathRow) -> bool:
+def out_of_reach(request: StepRequest, margin: float, path: PathRow) -> bool:
     """Return whether the path leaves what the leg reaches, or is too long for the time it has.
 
-    Checked at knots and half way between them, the hip moving on as predicted. A foot that starts
-    beyond the margins may come back inside.
+    Checked at knots and half way between them, the hip moving on as predicted; `margin` is kept
+    from the leg's limits, as a share of them. A foot that starts beyond may come back inside.
     """
     if path.length[0] * PEAK_SPEED > request.speed_limit * request.swing_seconds:
         return True
     offset = request.effector_offset_touchdown
     at_start = distance(request.start_world + offset, request.hip_start)
-    most = max(request.reach_max * (1.0 - settings.reach), at_start)
+    most = max(request.reach_max * (1.0 - margin), at_start)
     at_end = distance(load_vec3(path.point[PATH_KNOTS - 1]) + offset, request.hip_touchdown)
     most = max(most, min(request.reach_max, at_end))
-    least = min(request.reach_min * (1.0 + settings.reach), at_start)
+    least = min(request.reach_min * (1.0 + margin), at_start)
     before = load_vec3(path.point[0])
     for k in range(1, PATH_KNOTS):
         point = load_vec3(path.point[k])
@@ -98,15 +95,12 @@ def out_of_reach(settings: PlanSettings, request: StepRequest, path: PathRow) ->
 
 
 @kernel
-def deepest(
-    env: EnvironmentTable, settings: PlanSettings, request: StepRequest, path: PathRow, extra: Any
-) -> float:
-    """Return how deep the path goes into true shapes beyond what is accepted; m, 0: not at all.
+def deepest(env: EnvironmentTable, accepted: float, path: PathRow, extra: Any) -> float:
+    """Return how deep the path goes into true shapes beyond `accepted`; m, 0: not at all.
 
     What is missing is added to `extra` [PATH_KNOTS] at the knots about it, for a second try. A foot
     that starts sunk in may come out.
     """
-    accepted = settings.penetration * request.leg_length
     sunk, _ = penetration(env, load_vec3(path.point[0]))
     worst = 0.0
     for k in range(PATH_KNOTS - 1):

@@ -14,7 +14,7 @@ from polypod.environment.table import (
     is_forbidden,
     surface,
 )
-from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
 from polypod.math.vec3 import Vec3, distance, dot, length, load_vec3, store_vec3
 from polypod.paths.curve import PATH_KNOTS, PathRow
 from polypod.paths.hull import hull_curve, upper_hull
@@ -90,17 +90,24 @@ def arc_start(env: EnvironmentTable, request: StepRequest, end_y: float) -> tupl
 
 @kernel
 def place_knots(
-    lift: LiftScratch, points: int, request: StepRequest, end: Vec3, phase: float, height: float
+    lift: LiftScratch,
+    points: int,
+    start: Vec3,
+    end: Vec3,
+    shortest: float,
+    phase: float,
+    height: float,
 ) -> None:
     """Lay the knots along the plan, closer at the ends, and the step-height arc over them.
 
     `lift.plan[:points]` holds the path in plan with its lengths. The arc is half an ellipse over
-    the line from start to end: feet leave and land steeply.
+    the line from start to end: feet leave and land steeply. Even a step on the spot has
+    stations `shortest` m long.
     """
     total = lift.plan[points - 1, 2]
     start_cosine = math.cos(phase)
-    base = request.start_world.y - height * math.sin(phase)
-    longest = max(total, SHORTEST * request.leg_length)
+    base = start.y - height * math.sin(phase)
+    longest = max(total, shortest)
     piece = 0
     for k in range(PATH_KNOTS):
         angle = phase + (math.pi - phase) * k / LAST
@@ -126,24 +133,24 @@ def place_knots(
                 lift.knot[k, axis] += step * u
                 chord = lift.plan[after + 1, axis] - lift.plan[before, axis]
                 lift.knot[k, 2 + axis] = chord / wide * (total / longest)
-    lift.arc[0] = request.start_world.y
+    lift.arc[0] = start.y
     lift.arc[LAST] = end.y
 
 
 @kernel
-def foot_top(env: EnvironmentTable, request: StepRequest, x: float, z: float, grow: float) -> float:
+def foot_top(env: EnvironmentTable, foot: FootShape, x: float, z: float, grow: float) -> float:
     """Return the highest surface under a foot's shape grown by `grow` (m; negative shrinks it)."""
     top, _ = surface(env, x, z)
-    half_x = max(request.foot_half_x + grow, 0.0)
-    half_z = max(request.foot_half_z + grow, 0.0)
+    half_x = max(foot.half_x + grow, 0.0)
+    half_z = max(foot.half_z + grow, 0.0)
     if half_x == 0.0 and half_z == 0.0:
         return top
-    sine = math.sin(request.foot_yaw)
-    cosine = math.cos(request.foot_yaw)
     for corner in range(4):
         a = half_x if corner < 2 else -half_x
         b = half_z if corner % 2 == 0 else -half_z
-        at, _ = surface(env, x + a * cosine + b * sine, z - a * sine + b * cosine)
+        at, _ = surface(
+            env, x + a * foot.cosine + b * foot.sine, z - a * foot.sine + b * foot.cosine
+        )
         top = max(top, at)
     return top
 
@@ -183,8 +190,8 @@ def require(
     lower than the step's arc are not asked.
     """
     leg = request.leg_length
-    foot = max(request.foot_half_x, request.foot_half_z)
-    full = foot + settings.toe * leg
+    foot = foot_shape(request)
+    full = foot.radius + settings.toe * leg
     barred = full + settings.forbidden_margin * leg
     clearance = settings.clearance * leg
     wide = 1.5 * full + settings.forbidden_margin * leg
@@ -219,7 +226,7 @@ def require(
             if met == 2 and is_forbidden(env, x, z, barred * share):
                 return False
             if met > 0:
-                height = foot_top(env, request, x, z, full * share - foot)
+                height = foot_top(env, foot, x, z, full * share - foot.radius)
             else:
                 height = ground_height(env, x, z)
             top = max(top, height + clearance * share)
@@ -233,7 +240,7 @@ def require(
 
 
 @kernel
-def write_knots(lift: LiftScratch, request: StepRequest, blend: float, path: PathRow) -> None:
+def write_knots(lift: LiftScratch, velocity: Vec3, blend: float, path: PathRow) -> None:
     """Write the path over the lifted knots, its tangents and its arc length.
 
     `blend` is the share of the path over which it turns from the velocity it starts with to its own
@@ -244,12 +251,12 @@ def write_knots(lift: LiftScratch, request: StepRequest, blend: float, path: Pat
         along = Vec3(lift.knot[k, 2], lift.slope[k], lift.knot[k, 3])
         size = length(along)
         store_vec3(path.tangent[k], along * (1.0 / size) if size > 1e-9 else Vec3(0.0, 0.0, 0.0))
-    speed = length(request.start_velocity)
+    speed = length(velocity)
     if blend > 0.0 and speed > 0.0:
         total = 0.0
         for k in range(1, PATH_KNOTS):
             total += distance(load_vec3(path.point[k - 1]), load_vec3(path.point[k]))
-        turn = request.start_velocity * (1.0 / speed) - load_vec3(path.tangent[0])
+        turn = velocity * (1.0 / speed) - load_vec3(path.tangent[0])
         span = blend * total
         at = 0.0
         before = load_vec3(path.point[0])
@@ -299,7 +306,7 @@ def lift_path(
         return False
     corners = upper_hull(lift.station, lift.need, PATH_KNOTS, lift.hull)
     hull_curve(lift.station, lift.need, lift.hull, corners, lift.height, lift.slope)
-    write_knots(lift, request, blend, path)
+    write_knots(lift, request.start_velocity, blend, path)
     return True
 
 
