@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from polypod.errors import RigError, choices
 from polypod.morphology.facing import mirror_misfit
-from polypod.morphology.limb import COINCIDENT, build_limb
+from polypod.morphology.limb import COINCIDENT, build_limb, touched_by
 from polypod.morphology.names import has_word
 from polypod.morphology.skeleton import Skeleton
 from polypod.morphology.sole import find_sole, is_flat_foot
@@ -27,6 +27,7 @@ IntArray = NDArray[np.int64]
 OFF_MIDDLE = 0.02  # of the creature's width
 TOUCHES = 0.12  # of a limb's length: so near the ground its end stands
 FOOT_HEIGHT = 0.2  # of a limb's length: a foot's pivot is no higher
+LOW = 0.3  # of a hip's height: a foot that hangs nowhere is no higher
 LIKE_ITS_IMAGE = 0.2  # of a limb's length, between a leg and its mirrored partner
 LEAST_LENGTH = 0.3  # of the longest leg
 SIDEWAYS = 0.7  # of a girdle's bone, along x
@@ -112,7 +113,10 @@ def _candidates(skeleton: Skeleton, roots: list[int]) -> list[Candidate]:
     candidates = []
     taken: set[int] = set()
     for root in sorted(standing, key=lambda node: len(ends[node])):
-        host, tip = _host(skeleton, root, [other for other in roots if other != root])
+        others = [other for other in roots if other != root]
+        host, tip = _host(skeleton, root, others)
+        if host < 0 and len(ends[root]) <= 2:
+            host, tip = _shank(skeleton, root, others)
         if host < 0:
             continue
         taken.update((root, host))
@@ -199,6 +203,17 @@ def _host(skeleton: Skeleton, root: int, others: list[int]) -> tuple[int, int]:
             if away <= COINCIDENT * length:
                 best = min(best, (away / length, other, tip))
     return best[1], best[2]
+
+
+def _shank(skeleton: Skeleton, root: int, others: list[int]) -> tuple[int, int]:
+    """Return the limb whose skin touches a low foot that hangs nowhere, and the joint it is on."""
+    for other in others:
+        rise = float(skeleton.position[other, 1]) - skeleton.ground
+        if float(skeleton.position[root, 1]) - skeleton.ground <= LOW * rise:
+            joint = touched_by(skeleton, other, root)
+            if joint >= 0 and joint != other:
+                return other, joint
+    return -1, -1
 
 
 def _candidate(skeleton: Skeleton, path: list[int], foot: int = -1) -> Candidate | None:
@@ -290,6 +305,9 @@ def _in_the_middle(skeleton: Skeleton, middle: float, legs: list[Candidate]) -> 
             if any(skeleton.weight[skeleton.below(child)].sum() > 0.0 for child in others):
                 break
             path.insert(0, parent)
+        above = int(skeleton.parent[path[0]])
+        if len(path) > 2 and (above < 0 or skeleton.weight[above] <= 0.0):
+            path.pop(0)  # nothing else can be the trunk
         if len(path) < 2 or not _touches(skeleton, path):
             continue
         leg = _candidate(skeleton, path)

@@ -21,6 +21,8 @@ FloatArray = NDArray[np.float64]
 COINCIDENT = 0.02
 # Without a joint at the tip: the foot's pivot touches the shank's skin, within this part.
 TOUCHING = 0.1
+TOE_SPREAD = 0.06  # of the leg's length: toes of one foot branch so near each other
+LOWERED = "its sole was put below the mark, where the skin is lowest"
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class Limb:
     sole: Sole
     length: float  # hip to sole along the chain
     rides: dict[int, int] = field(default_factory=dict)  # node -> node it must move with
-    guesses: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()  # phrases about this foot
 
     @property
     def sole_node(self) -> int:
@@ -123,12 +125,9 @@ def _chain_to_detached(skeleton: Skeleton, hip: int, foot: int) -> Chain:
     if found:
         _, tip, root = min(found)
         return Chain(skeleton.path(hip, -tip)[:-1], root, True, -tip)
-    touched = _touched_by(skeleton, hip, roots[-1:])
+    touched = touched_by(skeleton, hip, roots[-1]) if roots else -1
     if touched >= 0:
-        guess = (
-            f'the detached foot "{skeleton.label(foot)}" was hung on "{skeleton.label(touched)}", '
-            "whose skin it touches; --leg names another hip or foot"
-        )
+        guess = "hung on the shank whose skin it touches, for no joint is at its place"
         return Chain(skeleton.path(hip, touched), roots[-1], True, -1, (guess,))
     below = [node for node in skeleton.below(hip)[1:] if not skeleton.children[node]]
     reach = choices((skeleton.label(node) for node in below or [hip]), 12)
@@ -138,17 +137,16 @@ def _chain_to_detached(skeleton: Skeleton, hip: int, foot: int) -> Chain:
     )
 
 
-def _touched_by(skeleton: Skeleton, hip: int, roots: list[int]) -> int:
+def touched_by(skeleton: Skeleton, hip: int, foot: int) -> int:
     """Return the lowest joint of the leg whose skin touches the detached foot's pivot, or -1."""
-    for root in roots:
-        for node in reversed(skeleton.below(hip)):
-            skin = skeleton.vertex[skeleton.carrier == node]
-            length = _path_length(skeleton, skeleton.path(hip, node))
-            if len(skin) and length > 0.0:
-                length += float(np.linalg.norm(skeleton.position[node] - skeleton.position[root]))
-                away = np.linalg.norm(skin - skeleton.position[root], axis=1).min()
-                if float(away) <= TOUCHING * length:
-                    return node
+    for node in reversed(skeleton.below(hip)):
+        skin = skeleton.vertex[skeleton.carrier == node]
+        length = _path_length(skeleton, skeleton.path(hip, node))
+        if len(skin) and length > 0.0:
+            length += float(np.linalg.norm(skeleton.position[node] - skeleton.position[foot]))
+            away = np.linalg.norm(skin - skeleton.position[foot], axis=1).min()
+            if float(away) <= TOUCHING * length:
+                return node
     return -1
 
 
@@ -181,21 +179,39 @@ def _attached(skeleton: Skeleton, chain: Chain) -> Limb:
     place = skeleton.position[foot]
     length = _chain_length(skeleton, joints, place)
     around = find_sole(skeleton, skeleton.below(joints[-1]), hip, place, length)
-    sole, guesses = around.at_mark(place, length, skeleton.label(foot))
-    return Limb(hip, foot, tuple(joints), -1, sole.place, sole, length, {}, guesses)
+    sole = around.at_mark(place, length)
+    drop = float(place[1] - sole.place[1])
+    guesses = (LOWERED,) if drop > 0.03 * length else ()
+    return Limb(hip, foot, tuple(joints), -1, sole.place, sole, length + drop, {}, guesses)
 
 
 def _skinned_end(skeleton: Skeleton, above: list[int], last: int, named: int) -> Limb:
     """Return the leg whose last skinned joint is `last`: a flat foot, or a shank with a point."""
     hip, pivot = above[0], skeleton.position[last]
     chain_length = _chain_length(skeleton, above, pivot)
-    sole = find_sole(skeleton, skeleton.below(last), hip, pivot, chain_length)
+    toes = _toes_beside(skeleton, last, chain_length)
+    group = [node for toe in (last, *toes) for node in skeleton.below(toe)]
+    sole = find_sole(skeleton, group, hip, pivot, chain_length)
     length = chain_length + float(np.linalg.norm(sole.place - pivot))
     if is_flat_foot(sole, pivot, length):
         joints = turning_joints(skeleton, above, pivot)
-        return Limb(hip, named, tuple(joints), last, pivot, sole, length)
+        rides = dict.fromkeys(toes, last)
+        return Limb(hip, named, tuple(joints), last, pivot, sole, length, rides)
     joints = turning_joints(skeleton, [*above, last], sole.place)
     return Limb(hip, named, tuple(joints), -1, sole.place, sole, length)
+
+
+def _toes_beside(skeleton: Skeleton, foot: int, length: float) -> list[int]:
+    """Return the joints that branch beside a foot at nearly its place: the foot's other toes."""
+    beside = skeleton.children[skeleton.parent[foot]] if skeleton.parent[foot] >= 0 else ()
+    return [
+        node
+        for node in beside
+        if node != foot
+        and skeleton.is_joint[node]
+        and skeleton.weight[skeleton.below(node)].sum() > 0.0
+        and np.linalg.norm(skeleton.position[node] - skeleton.position[foot]) <= TOE_SPREAD * length
+    ]
 
 
 def _chain_length(skeleton: Skeleton, joints: list[int], end: FloatArray) -> float:

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.errors import RigError, SettingError, choices
+from polypod.morphology.builtin import NAMES as BUILT_IN
+from polypod.morphology.builtin import build as build_builtin
 from polypod.morphology.creature import Creature, read_creature
 from polypod.morphology.detect import detect_legs
 from polypod.morphology.facing import turn_to_face
@@ -73,7 +75,7 @@ def load_rig(
     limbs, guesses = _find_limbs(skeleton, creature)
     if facing_guess:
         guesses.insert(0, facing_guess)
-    if creature.height is None:
+    if creature.height is None and creature.rig not in BUILT_IN:
         size = skeleton.top - skeleton.ground
         guesses.append(
             f"its file units are metres, so it is {size:.4g} m tall; --height says otherwise"
@@ -113,10 +115,8 @@ def _ask(
 
 def _open(creature: Creature) -> tuple[GltfDocument, Creature]:
     """Return the document, and the creature with what a built-in one says of itself."""
-    from polypod.morphology import builtin
-
-    if creature.rig in builtin.NAMES and not Path(creature.rig).is_file():
-        made = builtin.build(creature.rig)
+    if creature.rig in BUILT_IN and not Path(creature.rig).is_file():
+        made = build_builtin(creature.rig)
         document = GltfDocument.from_bytes(made.glb, f"{creature.rig}.glb")
         if creature.legs is None:
             spine = made.spine if creature.spine is None else creature.spine
@@ -126,7 +126,7 @@ def _open(creature: Creature) -> tuple[GltfDocument, Creature]:
     if path.suffix.lower() not in SUFFIXES[:2]:
         raise RigError(
             f"{creature.rig}: is no rig: give a file that ends in {choices(SUFFIXES)}, or one of "
-            f"{choices(builtin.NAMES)}"
+            f"{choices(BUILT_IN)}"
         )
     return GltfDocument.read(path), creature
 
@@ -159,17 +159,21 @@ def _find_limbs(skeleton: Skeleton, creature: Creature) -> tuple[list[Limb], lis
         )
     limbs = [build_limb(skeleton, hip, foot) for hip, foot in pairs]
     _refuse_shared(skeleton, limbs)
-    for limb in limbs:
-        guesses.extend(limb.guesses)
-        if len(limb.joints) == 1:
-            guesses.append(
-                f'the leg of "{skeleton.label(limb.foot)}" has a single joint and cannot bend; '
-                "--leg names a hip higher up"
-            )
+    guesses.extend(_guesses_by_foot(skeleton, limbs))
     if creature.legs is None:
         layout = arrange(*_hips_and_soles(skeleton, limbs))
         limbs = [limbs[k] for k in back_to_front(layout)]
     return limbs, guesses
+
+
+def _guesses_by_foot(skeleton: Skeleton, limbs: list[Limb]) -> list[str]:
+    """Return one sentence for each thing guessed about feet, naming all the feet it is true of."""
+    feet: dict[str, list[str]] = {}
+    for limb in limbs:
+        single = ("its leg has a single joint and cannot bend",) if len(limb.joints) == 1 else ()
+        for guess in (*limb.guesses, *single):
+            feet.setdefault(guess, []).append(skeleton.label(limb.foot))
+    return [f"{choices(names, 6)}: {guess}; --leg says otherwise" for guess, names in feet.items()]
 
 
 def _refuse_shared(skeleton: Skeleton, limbs: list[Limb]) -> None:

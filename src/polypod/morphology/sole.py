@@ -30,17 +30,13 @@ class Sole:
     stretched: bool  # the leg sticks out: the sole is its tip, not its lowest point
     source: str  # "skin", "mark" or "pivot"
 
-    def at_mark(self, mark: FloatArray, length: float, label: str) -> tuple[Sole, tuple[str, ...]]:
-        """Return the sole at a mark, moved down to the skin where that hangs below the mark."""
+    def at_mark(self, mark: FloatArray, length: float) -> Sole:
+        """Return the sole at a mark, or straight below it where the skin hangs lower."""
         drop = float(mark[1] - self.place[1])
-        if self.source != "skin" or self.stretched or not 0.01 * length < drop < 0.3 * length:
-            return replace(self, place=mark.copy(), source="mark"), ()
-        place = np.array([mark[0], self.place[1], mark[2]])
-        guess = (
-            f'"{label}" marks a place {drop:.3g} m above the lowest skin: the sole was put below '
-            "it; --leg names another foot"
-        )
-        return replace(self, place=place), (guess,)
+        place = mark.copy()
+        if self.source == "skin" and not self.stretched and 0.0 < drop < FOOT_REACH * length:
+            place[1] = self.place[1]
+        return replace(self, place=place, source="mark")
 
 
 def find_sole(

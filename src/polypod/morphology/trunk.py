@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 HEAD_NAMES = ("head", "skull")
 AROUND = 0.15  # of a leg's length: joints this near to the hips carry the trunk
 LEAST = 0.02  # of a leg's length
-NOT_TRUNK = ("tail", "arm", "hand")
+NOT_TRUNK = ("tail", "arm", "hand", "hair", "skirt", "cape", "cloth")
 NOT_HEAD = ("tail", "back", "abdomen")
 
 
