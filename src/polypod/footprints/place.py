@@ -10,7 +10,7 @@ from polypod.environment.table import EnvironmentTable, is_forbidden, is_wet, su
 from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
 from polypod.math.vec3 import Vec3, distance
 from polypod.paths.check import leg_contact
-from polypod.paths.lift import obstacles_near
+from polypod.paths.near import obstacles_near
 from polypod.paths.scratch import OtherLegs
 
 REJECTED = -1.0

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
 from polypod.environment.table import EnvironmentTable
 from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
+from polypod.footprints.pair import NOTHING, try_pair
 from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import (
     MAP_CELLS,
@@ -21,20 +21,11 @@ from polypod.footprints.scratch import (
 )
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3, load_vec3
-from polypod.paths.around import plan_around
-from polypod.paths.check import deepest, meets_legs, out_of_reach
-from polypod.paths.curve import PATH_KNOTS, PathRow
-from polypod.paths.grid import highest_on_line, line_of_sight, spread_wavefront
-from polypod.paths.lift import (
-    BLEND,
-    SHORTEST,
-    arc_start,
-    lift_path,
-    place_knots,
-    straight_plan,
-)
-from polypod.paths.score import path_score, path_score_bound, plan_bending
-from polypod.paths.scratch import GridScratch, LiftScratch, OtherLegs
+from polypod.paths.curve import PathRow, copy_path
+from polypod.paths.lift import straight_plan
+from polypod.paths.score import path_score_bound, plan_bending
+from polypod.paths.scratch import OtherLegs
+from polypod.paths.slices import OVER_ALL, place_slices, plan_layer, plan_top
 
 __all__ = ["PlanScratch", "make_plan_scratch", "plan_step"]
 
@@ -42,60 +33,6 @@ __all__ = ["PlanScratch", "make_plan_scratch", "plan_step"]
 UNHINDERED = 0.97
 # Room about start, preferred place and search radius for ways around, leg lengths.
 DETOUR = 0.25
-NOTHING = -1.0
-OVER_ALL = 1e300
-
-
-@kernel
-def copy_path(source: PathRow, target: PathRow) -> None:
-    """Write one path over another."""
-    for k in range(PATH_KNOTS):
-        for axis in range(3):
-            target.point[k, axis] = source.point[k, axis]
-            target.tangent[k, axis] = source.tangent[k, axis]
-        target.fraction[k] = source.fraction[k]
-    target.count[0] = source.count[0]
-    target.length[0] = source.length[0]
-
-
-@kernel
-def try_pair(
-    env: EnvironmentTable,
-    settings: PlanSettings,
-    request: StepRequest,
-    legs: OtherLegs,
-    lift: LiftScratch,
-    points: int,
-    end: Vec3,
-    place_score: float,
-    best: float,
-    trial: PathRow,
-) -> tuple[float, float]:
-    """Return the scores of the pair and of its path; NOTHING if it cannot win or is impossible.
-
-    `lift.plan[:points]` holds the path in plan to `end`. The finished path, in `trial`, is checked
-    against the true shapes; where it touches them it is raised there once.
-    """
-    phase, height = arc_start(env, request, end.y)
-    leg = request.leg_length
-    foot = max(request.foot_half_x, request.foot_half_z)
-    place_knots(lift, points, request.start_world, end, SHORTEST * leg, phase, height)
-    for k in range(PATH_KNOTS):
-        lift.extra[k] = 0.0
-    blend = BLEND
-    for _ in range(2):
-        if not lift_path(env, settings, request, lift, blend, trial):
-            return NOTHING, 0.0
-        quality = path_score(settings, lift, points)
-        pair = (1.0 - settings.weight_path) * place_score + settings.weight_path * quality
-        if pair <= best or out_of_reach(request, settings.reach, trial):
-            return NOTHING, 0.0
-        if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
-            return NOTHING, 0.0
-        if deepest(env, settings.penetration * leg, trial, lift.extra) <= 0.0:
-            return pair, quality
-        blend *= 0.25
-    return NOTHING, 0.0
 
 
 @kernel
@@ -129,84 +66,6 @@ def fill_window(
         request.foot_half_z + toe,
         request.foot_yaw,
     )
-
-
-@kernel
-def place_slices(
-    grid: GridScratch,
-    highest: Any,
-    window_place: Any,
-    n: int,
-    places: Any,
-    kept: int,
-    start: Vec3,
-    floor: float,
-    limit: int,
-    thinnest: float,
-) -> int:
-    """Write the levels of the slices, from above, and return how many there are.
-
-    Layer 0 goes over everything. The others, at most `limit`, lie between the ground (`floor`, m)
-    and the highest thing on the straight lines to the candidates, `thinnest` m or more apart; what
-    is lower than one slice is always stepped over.
-    """
-    cell = window_place[2]
-    u = (start.x - window_place[0]) / cell
-    v = (start.z - window_place[1]) / cell
-    top = floor
-    for k in range(kept):
-        to_u = (places[k, 0] - window_place[0]) / cell
-        to_v = (places[k, 2] - window_place[1]) / cell
-        top = max(top, highest_on_line(highest, n, u, v, to_u, to_v))
-    limit = min(limit, grid.level.shape[0] - 1)
-    grid.level[0] = OVER_ALL
-    grid.spread[0] = 0
-    thickness = max(thinnest, (top - floor) / (limit + 1.0))
-    slices = 1
-    while slices <= limit and floor + thickness * slices < top:
-        slices += 1
-    for layer in range(1, slices):
-        grid.level[layer] = floor + thickness * (slices - layer)
-        grid.spread[layer] = 0
-    return slices
-
-
-@kernel
-def plan_top(highest: Any, place: Any, n: int, plan: Any, points: int) -> float:
-    """Return the highest cell under a path in plan."""
-    top = -OVER_ALL
-    for k in range(points - 1):
-        u = (plan[k, 0] - place[0]) / place[2]
-        v = (plan[k, 1] - place[1]) / place[2]
-        to_u = (plan[k + 1, 0] - place[0]) / place[2]
-        to_v = (plan[k + 1, 1] - place[1]) / place[2]
-        top = max(top, highest_on_line(highest, n, u, v, to_u, to_v))
-    return top
-
-
-@kernel
-def plan_layer(
-    grid: GridScratch,
-    lift: LiftScratch,
-    highest: Any,
-    place: Any,
-    n: int,
-    layer: int,
-    start: Vec3,
-    end: Vec3,
-    row: int,
-    column: int,
-) -> int:
-    """Write the shortest path in plan to a place within a slice; return its points, 0: no way."""
-    u = (start.x - place[0]) / place[2]
-    v = (start.z - place[1]) / place[2]
-    to_u = (end.x - place[0]) / place[2]
-    to_v = (end.z - place[1]) / place[2]
-    if line_of_sight(grid.closed, highest, grid.level[layer], n, u, v, to_u, to_v):
-        return straight_plan(lift, start, end)
-    if grid.spread[layer] == 0:
-        spread_wavefront(grid, highest, n, layer, int(v), int(u))
-    return plan_around(grid, lift, highest, place, n, layer, start, end, row, column)
 
 
 @kernel

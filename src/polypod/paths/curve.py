@@ -141,3 +141,15 @@ def swing_progress(profile: int, time: float, start_speed: float) -> tuple[float
     progress = u * (v + u * u * (c3 + u * (c4 + u * c5)))
     rate = v + u * u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5))
     return progress, rate
+
+
+@kernel
+def copy_path(source: PathRow, target: PathRow) -> None:
+    """Write one path over another."""
+    for k in range(PATH_KNOTS):
+        for axis in range(3):
+            target.point[k, axis] = source.point[k, axis]
+            target.tangent[k, axis] = source.tangent[k, axis]
+        target.fraction[k] = source.fraction[k]
+    target.count[0] = source.count[0]
+    target.length[0] = source.length[0]

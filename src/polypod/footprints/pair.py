@@ -1,0 +1,55 @@
+"""One pair of footprint and path: made in three dimensions, scored, checked (P1 section 5.2)."""
+
+from __future__ import annotations
+
+from polypod.compute import kernel
+from polypod.environment.table import EnvironmentTable
+from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.math.vec3 import Vec3
+from polypod.paths.check import deepest, meets_legs, out_of_reach
+from polypod.paths.curve import PATH_KNOTS, PathRow
+from polypod.paths.lift import BLEND, SHORTEST, arc_start, lift_path, place_knots
+from polypod.paths.score import path_score
+from polypod.paths.scratch import LiftScratch, OtherLegs
+
+NOTHING = -1.0
+
+
+@kernel
+def try_pair(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    lift: LiftScratch,
+    points: int,
+    end: Vec3,
+    place_score: float,
+    best: float,
+    trial: PathRow,
+) -> tuple[float, float]:
+    """Return the scores of the pair and of its path; NOTHING if it cannot win or is impossible.
+
+    `lift.plan[:points]` holds the path in plan to `end`. The finished path, in `trial`, is checked
+    against the true shapes; where it touches them it is raised there once.
+    """
+    phase, height = arc_start(env, request, end.y)
+    leg = request.leg_length
+    foot = max(request.foot_half_x, request.foot_half_z)
+    place_knots(lift, points, request.start_world, end, SHORTEST * leg, phase, height)
+    for k in range(PATH_KNOTS):
+        lift.extra[k] = 0.0
+    blend = BLEND
+    for _ in range(2):
+        if not lift_path(env, settings, request, lift, blend, trial):
+            return NOTHING, 0.0
+        quality = path_score(settings, lift, points)
+        pair = (1.0 - settings.weight_path) * place_score + settings.weight_path * quality
+        if pair <= best or out_of_reach(request, settings.reach, trial):
+            return NOTHING, 0.0
+        if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
+            return NOTHING, 0.0
+        if deepest(env, settings.penetration * leg, trial, lift.extra) <= 0.0:
+            return pair, quality
+        blend *= 0.25
+    return NOTHING, 0.0
