@@ -1,0 +1,143 @@
+"""What a run says while it works: progress, and what it is compiling. All of it on stderr."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+# Measured on two cores of 2020; said to the user as a rough figure.
+COMPILE_SECONDS = 60
+# Where stderr is no terminal, a line so often says how far a long job is.
+LINE_EVERY_S = 10.0
+
+
+def on_terminal() -> bool:
+    """Return whether somebody watches stderr."""
+    return sys.stderr.isatty()
+
+
+def note(text: str) -> None:
+    """Print a line for whoever waits."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def warn(text: str) -> None:
+    """Print a line worth knowing."""
+    note(f"polypod: warning: {text}")
+
+
+@contextmanager
+def progress(title: str) -> Iterator[Callable[[int, int], None]]:
+    """Give a function to call with (done, total); a bar on a terminal, else a line now and then."""
+    bar: Any = None
+    last_line = time.monotonic()
+
+    def advance(done: int, total: int) -> None:
+        nonlocal bar, last_line
+        if on_terminal():
+            if bar is None:
+                from tqdm import tqdm
+
+                bar = tqdm(total=total, desc=title, file=sys.stderr, leave=False)
+            bar.update(done - bar.n)
+        elif time.monotonic() - last_line > LINE_EVERY_S:
+            last_line = time.monotonic()
+            note(f"{title}: {done} of {total}")
+
+    try:
+        yield advance
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+class CompileCounter:
+    """Listens to Numba, and says that kernels are compiled from the moment one is."""
+
+    def __init__(self, first_run: bool) -> None:
+        self.count = 0
+        self.first_run = first_run
+        self.started = 0.0
+        self.said = 0.0
+        self.ended = 0.0
+
+    def add(self) -> None:
+        """Count a function whose compilation starts."""
+        if self.count == 0:
+            self._begin()
+        self.count += 1
+        self._tell()
+
+    def _begin(self) -> None:
+        self.started = self.said = time.monotonic()
+        about = "first run only" if self.first_run else "and keeping them for later runs"
+        note(f"compiling kernels ({about}, at most about {COMPILE_SECONDS} s)")
+
+    def _tell(self) -> None:
+        now = time.monotonic()
+        text = f"compiling kernels: {self.count} functions, {now - self.started:.0f} s"
+        if on_terminal():
+            print(f"\r{text} ", end="", file=sys.stderr, flush=True)
+        elif now - self.said > LINE_EVERY_S:
+            self.said = now
+            note(text)
+
+    def finish(self) -> None:
+        """Say how long it took, if anything was compiled."""
+        if self.count:
+            seconds = self.ended - self.started
+            start = "\r" if on_terminal() else ""
+            note(f"{start}compiled {self.count} functions in {seconds:.0f} s          ")
+
+
+@contextmanager
+def telling_of_compilation() -> Iterator[None]:
+    """Say on screen what is compiled within, if anything is."""
+    prepare_cache()
+    from numba.core import event
+
+    from polypod.compute import kernel_cache_folder
+
+    folder = kernel_cache_folder()
+    counter = CompileCounter(first_run=not any(folder.rglob("*.nbi")))
+    events: Any = event
+
+    class Listener(event.Listener):
+        def on_start(self, event: Any) -> None:
+            counter.add()
+
+        def on_end(self, event: Any) -> None:
+            counter.ended = time.monotonic()
+
+    listener = Listener()
+    events.register("numba:compile", listener)
+    try:
+        yield
+    finally:
+        events.unregister("numba:compile", listener)
+        counter.finish()
+
+
+def prepare_cache() -> None:
+    """Make sure that compiled kernels can be kept somewhere; before any kernel is imported."""
+    import tempfile
+
+    from numba.core import config
+
+    from polypod.compute import kernel_cache_folder
+
+    settings: Any = config
+    folder = settings.CACHE_DIR
+    try:
+        kernel_cache_folder().mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return
+    except OSError as error:
+        warn(
+            f"kernels cannot be kept in {folder} ({error.strerror}), so each run compiles them "
+            "anew; POLYPOD_CACHE names another folder"
+        )
+        settings.CACHE_DIR = tempfile.mkdtemp(prefix="polypod-kernels-")

@@ -1,0 +1,199 @@
+"""`polypod walk`: a rig and a place go in, a walk comes out."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from polypod.errors import SettingError
+from polypod.jobs.outputs import Outputs, judge_outputs, write_outputs
+from polypod.jobs.rig_options import DEFAULT_RIG, RIG_HELP, add_rig_options
+from polypod.jobs.screen import progress, telling_of_compilation, warn
+from polypod.jobs.values import filled, number, waypoints, whole
+
+if TYPE_CHECKING:
+    from polypod.environment.environment import Environment
+    from polypod.environment.scene import Scene
+    from polypod.jobs.cast import Role
+    from polypod.report.record import Recording
+
+HELP = "make a creature walk"
+DESCRIPTION = """Makes a creature walk and writes the walk.
+
+  polypod walk spider --scene crates.toml -o walk.glb -o walk.png
+  polypod walk fox.glb --height 0.8 --path "0,0 0,5 3,8" -o fox_walks.glb"""
+DEFAULT_SECONDS = 10.0
+MOST_FRAMES = 100_000
+# Of all creatures together: each takes 56 bytes, twice while a recording is finished.
+MOST_JOINT_FRAMES = 20_000_000
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of `polypod walk`."""
+    parser.add_argument(
+        "rig", nargs="?", type=filled, metavar="RIG", help=f"{RIG_HELP}; omitted: {DEFAULT_RIG}"
+    )
+    add_rig_options(parser)
+    parser.add_argument(
+        "--scene", type=filled, metavar="SCENE.toml", help="where to walk; omitted: flat ground"
+    )
+    parser.add_argument(
+        "--gait", type=filled, metavar="NAME|FILE", help="see polypod gait; omitted: what fits"
+    )
+    parser.add_argument(
+        "--speed",
+        type=number(0.0, 100.0, "m/s"),
+        metavar="M/S",
+        help="omitted: what is comfortable for the legs",
+    )
+    parser.add_argument(
+        "--path",
+        type=waypoints,
+        metavar='"x,z x,z ..."',
+        help="places in metres: start at the first, face the second, stop at the last",
+    )
+    parser.add_argument(
+        "--seconds",
+        type=number(0.0, 1e6, "s", above=True),
+        metavar="S",
+        help=f"omitted: what the path takes, or {DEFAULT_SECONDS:g}",
+    )
+    parser.add_argument(
+        "--fps", type=number(1.0, 1000.0, "frames a second"), default=30.0, help="default: 30"
+    )
+    parser.add_argument(
+        "--seed",
+        type=whole(0, 2**31 - 1, "a seed"),
+        default=0,
+        metavar="N",
+        help="another number, another field: added to the seeds of the scene",
+    )
+    parser.add_argument(
+        "-o",
+        dest="out",
+        action="append",
+        default=[],
+        type=filled,
+        metavar="OUT.glb|OUT.png",
+        help="the walk as a GLB, or as a strip of pictures; repeatable",
+    )
+    parser.add_argument("--record", type=filled, metavar="RUN.npz", help="the walk as arrays")
+    parser.add_argument(
+        "--report", type=filled, metavar="REPORT.json", help="how good the walk is, in numbers"
+    )
+
+
+def run(given: argparse.Namespace) -> int:
+    """Judge everything, walk, write, and say how it went."""
+    outputs = judge_outputs(given.out, given.record, given.report, _inputs(given))
+    from polypod.environment.scene import read_scene
+    from polypod.jobs.cast import cast_roles, walking_seconds
+
+    scene = read_scene(given.scene) if given.scene is not None else None
+    roles = cast_roles(given, scene)
+    seconds = given.seconds
+    if seconds is None:
+        seconds = walking_seconds(roles, DEFAULT_SECONDS)
+    _judge_length(roles, seconds, given.fps)
+    if scene is not None and scene.pushes:
+        warn(f"{scene.path} has pushes, which this version does not simulate; it walks unpushed")
+    with telling_of_compilation():
+        recordings, environment = _walk(roles, scene, seconds, given.fps)
+        reports = _judge_walks(roles, recordings, environment, seconds)
+        written = write_outputs(outputs, recordings, environment, reports)
+    _sum_up(reports, written, outputs)
+    return 0
+
+
+def _inputs(given: argparse.Namespace) -> list[Path]:
+    """Return the files that the command line names for reading."""
+    return [Path(name) for name in (given.rig, given.scene, given.gait) if name is not None]
+
+
+def _judge_length(roles: list[Role], seconds: float, fps: float) -> None:
+    frames = round(seconds * fps) + 1
+    if frames > MOST_FRAMES:
+        raise SettingError(
+            f"{seconds:g} s at {fps:g} frames a second are {frames} frames; the most is "
+            f"{MOST_FRAMES}; give fewer --seconds"
+        )
+    if frames < 2:
+        raise SettingError(
+            f"--seconds {seconds:g} is less than a frame; give at least {1.0 / fps:.3g}"
+        )
+    joints = sum(len(role.morphology.joint_node) * role.count for role in roles)
+    if joints * frames > MOST_JOINT_FRAMES:
+        raise SettingError(
+            f"{frames} frames of {joints} joints are too much to keep, the most is "
+            f"{MOST_JOINT_FRAMES // joints} frames; give fewer --seconds"
+        )
+
+
+def _walk(
+    roles: list[Role], scene: Scene | None, seconds: float, fps: float
+) -> tuple[list[Recording], Environment]:
+    from polypod.environment.environment import Environment
+    from polypod.jobs.cast import enter, overdone
+    from polypod.recording import record_walk
+    from polypod.world import World
+
+    environment = Environment() if scene is None else scene.environment()
+    world = World(environment)
+    for role in roles:
+        try:
+            herd = enter(world, role)
+        except SettingError as error:
+            raise SettingError(f"{role.place}: {error}") from None
+        too_fast = overdone(role, herd)
+        if too_fast is not None:
+            warn(too_fast)
+    with progress("walking") as advance:
+        return record_walk(world, seconds, fps, advance), environment
+
+
+def _judge_walks(
+    roles: list[Role], recordings: list[Recording], environment: Environment, seconds: float
+) -> list[dict[str, object]]:
+    """Return what goes into each creature's report."""
+    from polypod.report.figures import measure
+    from polypod.report.verdict import failures, remarks
+
+    reports: list[dict[str, object]] = []
+    who = [role for role in roles for _ in range(role.count)]
+    with progress("judging") as advance:
+        for role, recording in zip(who, recordings, strict=True):
+            asked = min(role.speed * seconds, role.way)
+            figures = measure(recording, environment.table, commanded_distance_m=asked)
+            reports.append(
+                {
+                    "creature": role.morphology.name,
+                    "speed_asked_m_s": role.speed,
+                    **figures,
+                    "failures": failures(figures),
+                    "remarks": remarks(figures),
+                }
+            )
+            advance(len(reports), len(who))
+    return reports
+
+
+def _sum_up(reports: list[dict[str, Any]], written: list[Path], outputs: Outputs) -> None:
+    """Print a line a creature, what failed, and what was written."""
+    for report in reports[:10]:
+        slip = 1000.0 * report.get("stance_slip_of_leg", 0.0) * report["leg_length_m"]
+        print(
+            f"{report['creature']} walked {report['distance_m']:.3g} m of "
+            f"{report['distance_commanded_m']:.3g} m asked for in {report['seconds']:.3g} s, "
+            f"{report['swing_count']} steps, no foot slipped more than {slip:.2g} mm"
+        )
+    if len(reports) > 10:
+        print(f"and {len(reports) - 10} more")
+    for report in reports:
+        for failure in report["failures"]:
+            warn(f"{report['creature']}: {failure}")
+    print("wrote " + ", ".join(str(path) for path in written) if written else _nothing(outputs))
+
+
+def _nothing(outputs: Outputs) -> str:
+    return "nothing was written; -o walk.glb writes the walk, -o walk.png pictures of it"
