@@ -7,6 +7,8 @@ space in which the nodes live. It is not written down; it is found by agreement 
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,13 +17,13 @@ from polypod.rigs.gltf import GltfDocument, Skin
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+BoolArray = NDArray[np.bool_]
 
 # Node pose and bind pose agree in these parts (rotation in radians, place in creature sizes).
 SAME = 2e-3
-# Of the joints: so many in exact agreement settle the question.
-MAJORITY = 0.6
-# The mesh's own node is believed while it disagrees by no more than this beyond the best guess.
-BENEFIT_OF_DOUBT = 0.25
+# A likely answer is believed while its misfit is no more than this beyond the least misfit: more
+# where a root joint is exactly where it puts it.
+DOUBT, MUCH_DOUBT = 0.25, 1.5
 SCALE_TOLERANCE = 0.05
 
 
@@ -88,22 +90,38 @@ def find_space(
     above = _nearest_above(joints, parents)
     stretch = _length_ratio(bind, world, above)
     own = world @ np.linalg.inv(bind)
-    roots = own[above < 0]
-    # A root that did not move between the two poses gives the answer itself.
-    candidates = np.concatenate([hints, roots, own[:: max(1, len(own) // 64)]])
+    # The root that carries most joints: if it did not move between the poses, it has the answer.
+    root = _main_root(above)
+    candidates = np.concatenate([hints, own[root : root + 1], own[:: max(1, len(own) // 64)]])
     sizes = np.cbrt(np.abs(np.linalg.det(candidates[:, :3, :3])))
     usable = np.abs(np.log(np.maximum(sizes, 1e-300) / stretch)) < SCALE_TOLERANCE
     if not usable.any():
         return _by_agreement(bind, world, own)
-    scores, shares = zip(*(_disagreement(c, bind, world) for c in candidates), strict=True)
-    score = np.where(usable, scores, np.inf)
-    share = np.where(usable, shares, 0.0)
-    if share.max() >= MAJORITY:
+    fit = [_fit(candidate, bind, world) for candidate in candidates]
+    score = np.where(usable, [f.misfit for f in fit], np.inf)
+    share = np.where(usable, [f.exact.mean() for f in fit], 0.0)
+    if share.max() == 1.0:
         return np.asarray(candidates[int(share.argmax())])
-    for first, last in ((0, len(hints)), (len(hints), len(hints) + len(roots))):
-        if first < last and score[first:last].min() <= score.min() + BENEFIT_OF_DOUBT:
-            return np.asarray(candidates[first + int(score[first:last].argmin())])
+    # A body may lean as a whole in mid-clip, so most joints agreeing is no proof, as it is that a
+    # root is exactly where a hint puts it.
+    anchored = [bool(f.exact[above < 0].any()) for f in fit]
+    order = sorted(range(len(hints)), key=lambda i: (not anchored[i], score[i]))
+    for i in [*order, len(hints)]:
+        doubt = MUCH_DOUBT if anchored[i] else DOUBT
+        if score[i] <= score.min() + doubt:
+            return np.asarray(candidates[i])
     return np.asarray(candidates[int(score.argmin())])
+
+
+def _main_root(above: IntArray) -> int:
+    """Return the row of the root that has the most joints below it."""
+    below = np.zeros(len(above), np.int64)
+    for row in range(len(above)):
+        top = row
+        while above[top] >= 0:
+            top = int(above[top])
+        below[top] += 1
+    return int(below.argmax())
 
 
 def _nearest_above(joints: IntArray, parents: IntArray) -> IntArray:
@@ -138,8 +156,14 @@ def _length_ratio(bind: FloatArray, world: FloatArray, above: IntArray) -> float
     return float(np.median(in_world[real] / in_bind[real]))
 
 
-def _disagreement(space: FloatArray, bind: FloatArray, world: FloatArray) -> tuple[float, float]:
-    """Return the mean misfit of the joints under `space`, in [0, 2], and the share that fits."""
+class _Fit(NamedTuple):
+    """How well joints fit their nodes under a candidate."""
+
+    misfit: float  # mean over the joints, in [0, 2]
+    exact: BoolArray  # [n] the joint is where its node is
+
+
+def _fit(space: FloatArray, bind: FloatArray, world: FloatArray) -> _Fit:
     placed = space @ bind
     spread = np.ptp(world[:, :3, 3], axis=0)
     size = max(float(np.linalg.norm(spread)), 1e-300)
@@ -147,7 +171,7 @@ def _disagreement(space: FloatArray, bind: FloatArray, world: FloatArray) -> tup
     a, b = _directions(placed), _directions(world)
     turned = np.linalg.norm(a - b, axis=(1, 2)) / np.sqrt(2.0)  # 2 sin(angle / 2)
     misfit = np.minimum(turned, 1.0) + np.minimum(4.0 * away, 1.0)
-    return float(misfit.mean()), float(np.mean((turned < SAME) & (away < SAME)))
+    return _Fit(float(misfit.mean()), (turned < SAME) & (away < SAME))
 
 
 def _directions(matrices: FloatArray) -> FloatArray:
@@ -159,7 +183,7 @@ def _directions(matrices: FloatArray) -> FloatArray:
 def _by_agreement(bind: FloatArray, world: FloatArray, own: FloatArray) -> FloatArray:
     """Return the joint's own answer that suits all joints best."""
     candidates = own if len(own) else world @ np.linalg.inv(bind)
-    scores = [_disagreement(candidate, bind, world)[0] for candidate in candidates]
+    scores = [_fit(candidate, bind, world).misfit for candidate in candidates]
     return np.asarray(candidates[int(np.argmin(scores))])
 
 
