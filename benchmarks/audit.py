@@ -8,6 +8,7 @@ walks are planned with.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -173,7 +174,7 @@ def _forbidden(walk: _Walk, ground: Ground) -> dict[str, Finding]:
                 stances = walk.finding(stances.value + 1.0, 0.0, start, foot)
         for start, stop in runs_of(~recording.foot_stance[:, foot]):
             ends = sole[max(start - 1, 0) : stop + 1]
-            chords = [a + (b - a) * share for a, b in zip(ends[:-1], ends[1:], strict=True)]
+            chords = [a + (b - a) * share for a, b in pairwise(ends)]
             if chords and ground.over_forbidden(np.concatenate(chords)).any():
                 crossings = walk.finding(crossings.value + 1.0, 0.0, start, foot)
     return {"forb. stands": stances, "forb. swings": crossings}

@@ -74,7 +74,7 @@ def hip_height(morphology: Morphology) -> float:
 
 
 def default_speed(morphology: Morphology) -> float:
-    """Return a brisk walk, m/s: Froude number 0.2 of upright creatures, v^2 / (g L) 1/16 of others."""
+    """Return a brisk walk, m/s: Froude number 0.2 if upright, else v^2 / (g L) = 1/16."""
     if float(morphology.legs.upright.mean()) > 0.5:
         return 0.45 * math.sqrt(GRAVITY * hip_height(morphology))
     return 0.25 * math.sqrt(GRAVITY * leg_length(morphology))
@@ -88,9 +88,7 @@ def make_place(place: str, morphology: Morphology, distance: float, seed: int) -
     if place == "hills":
         size = 2.0 * distance + 20.0 * unit
         wavelength = max(8.0 * unit, size / 200.0)
-        return Environment(
-            Terrain.hills(seed=seed, relief=unit, wavelength=wavelength, size=size)
-        )
+        return Environment(Terrain.hills(seed=seed, relief=unit, wavelength=wavelength, size=size))
     first = front(morphology) + 0.5 * unit
     if place == "slope":
         length = distance + 10.0 * unit
@@ -102,9 +100,14 @@ def make_place(place: str, morphology: Morphology, distance: float, seed: int) -
         count = max(3, math.floor(room / unit))
         return Environment(
             Terrain.stairs(
-                rise=0.15 * unit, run=0.5 * unit, count=count, width=12.0 * unit,
-                start=first, landing=landing, down=True,
-            )  # fmt: skip
+                rise=0.15 * unit,
+                run=0.5 * unit,
+                count=count,
+                width=12.0 * unit,
+                start=first,
+                landing=landing,
+                down=True,
+            )
         )
     if place in ("crates", "forbidden"):
         share = 1.0 / 3.0 if place == "forbidden" else 0.0
