@@ -27,7 +27,7 @@ from polypod.errors import SettingError
 class Settings:
     """How a walk is controlled; everything a user may tune and no morphology implies."""
 
-    acceleration: float = 0.6
+    acceleration: float = 0.25
     """Change of speed, hip heights per (leg pendulum time)^2; 1 is g for an upright animal."""
 
     turn_rate: float = 0.35

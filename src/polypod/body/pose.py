@@ -11,9 +11,10 @@ from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose
+from polypod.controller.swing import swing_time_left
 from polypod.gait.tempo import GRAVITY
 from polypod.math.quat import Quat, load_quat, rotate
-from polypod.math.vec3 import load_vec3
+from polypod.math.vec3 import Vec3, load_vec3
 
 # P1's sinusoid is never larger than this, hip heights.
 LARGEST_BOB = 0.02
@@ -52,14 +53,23 @@ def bob(c: int, state: Any, tables: Any, settings: Any) -> float:
 
 
 @kernel
-def highest(c: int, state: Any, tables: Any, pose: PlanPose, turn: Quat) -> float:
-    """Return the greatest height at which all feet, also those about to land, are in comfort."""
+def highest(
+    c: int, pose: PlanPose, turn: Quat, state: Any, command: Any, tables: Any
+) -> float:
+    """Return the greatest height at which all feet, also those about to land, are in reach.
+
+    A foot about to land will be met by a body that has moved on until then.
+    """
     best = math.inf
+    course = pose.heading + command.travel[c]
     for k in range(state.swinging.shape[1]):
         place = load_vec3(state.foot_target[c, k])
+        if state.swinging[c, k]:
+            way = pose.speed * swing_time_left(c, k, state)
+            place = place - Vec3(math.sin(course) * way, 0.0, math.cos(course) * way)
         ankle = effector_world(k, tables, place, load_quat(state.foot_rotation_target[c, k]))
         hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
-        reach = tables.ik.comfortable[k]
+        reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
         dx = pose.x + hip.x - ankle.x
         dz = pose.z + hip.z - ankle.z
         flat = min(dx * dx + dz * dz, 0.9 * reach * reach)
@@ -111,6 +121,6 @@ def wished_height(
     ahead = abs(state.speed[c]) * seconds
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
     extra = max(0.0, least - base)
-    most = highest(c, state, tables, pose, turn)
+    most = highest(c, pose, turn, state, command, tables)
     extra = min(extra, most - base)
     return base + follow(state.lift[c], extra, seconds, dt) + bob(c, state, tables, settings)

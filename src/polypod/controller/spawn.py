@@ -19,7 +19,7 @@ from polypod.math.vec3 import Vec3, store_vec3
 TURNS = 4
 SEARCH_GROWTH = 1.6
 # Feet come down from so many leg lengths above their place.
-FROM_ABOVE = 0.5
+FROM_ABOVE = 0.1
 
 
 @kernel

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
+from polypod.controller.steering import PlanPose, plan_pose, predict
 from polypod.gait.needle import minimum_feet_down, turn_needle
 from polypod.gait.tempo import tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
@@ -13,10 +14,12 @@ from polypod.math.intervals import wrap_phase
 
 # The duty factor follows speed within about so many cycles.
 DUTY_CYCLES = 0.5
+# How far ahead the tempo looks, leg pendulum times: about half a cycle.
+SOON = 1.5
 
 
 @kernel
-def fastest_foot_speed(c: int, state: Any, tables: Any) -> float:
+def fastest_foot_speed(c: int, pose: PlanPose, state: Any, tables: Any) -> float:
     """Return the speed of the fastest foot's rest place, m/s: it sets the tempo in a turn."""
     legs = tables.legs
     most = 0.0
@@ -24,14 +27,14 @@ def fastest_foot_speed(c: int, state: Any, tables: Any) -> float:
         across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
         along = legs.sole_stance[k, 2] + state.spacing[c, k, 1]
         # Heading turns +Z toward +X: a place at +X moves backward.
-        forward = state.speed[c] - state.turn_rate[c] * across
-        sideways = state.turn_rate[c] * along
+        forward = pose.speed - pose.turn_rate * across
+        sideways = pose.turn_rate * along
         most = max(most, math.hypot(forward, sideways))
     return most
 
 
 @kernel
-def stance_travel_limit(c: int, command: Any, tables: Any) -> float:
+def stance_travel_limit(c: int, state: Any, command: Any, tables: Any) -> float:
     """Return how far every leg lets its foot travel under the body while it stands, metres."""
     ik = tables.ik
     sideways = abs(math.sin(command.travel[c]))
@@ -39,6 +42,35 @@ def stance_travel_limit(c: int, command: Any, tables: Any) -> float:
     for k in range(ik.stance_travel.shape[0]):
         travel = ik.stance_travel[k] + sideways * (ik.stance_travel_least[k] - ik.stance_travel[k])
         limit = min(limit, travel)
+    return min(limit, neighbour_limit(c, state, command, tables))
+
+
+@kernel
+def neighbour_limit(c: int, state: Any, command: Any, tables: Any) -> float:
+    """Return the stance travel at which a foot just reaches the one behind it, metres.
+
+    Of two neighbours on a side, the front one that stands since an earlier touchdown has come back
+    toward the hind one: by the lag of their touchdowns times the stride. Arthropods do not let
+    their legs cross there; long upright legs pass beside each other.
+    """
+    legs = tables.legs
+    limit = math.inf
+    across = math.sin(command.travel[c])
+    along = math.cos(command.travel[c])
+    for back in range(legs.length.shape[0]):
+        if legs.upright[back] or legs.side[back] == 0:
+            continue
+        for front in range(legs.length.shape[0]):
+            if legs.side[front] != legs.side[back] or legs.row[front] != legs.row[back] + 1:
+                continue
+            duty = 1.0 - state.goal_extent[c, back]
+            landed_back = state.goal_start[c, back] + state.goal_extent[c, back]
+            landed_front = state.goal_start[c, front] + state.goal_extent[c, front]
+            lag = wrap_phase(landed_back - landed_front)
+            if lag < duty:
+                gap = (legs.sole_stance[front, 2] - legs.sole_stance[back, 2]) * along
+                gap += (legs.sole_stance[front, 0] - legs.sole_stance[back, 0]) * across
+                limit = min(limit, abs(gap) / max(lag, 1e-3) * duty)
     return limit
 
 
@@ -55,16 +87,22 @@ def destination_disks(c: int, command: Any, duty: float, start_out: Any, extent_
 
 @kernel
 def advance_gait(
-    c: int, dt: float, wishes_to_step: bool, state: Any, command: Any, tables: Any, scratch: Any
-) -> float:
+    c: int, dt: float, wishes_to_step: bool, state: Any, command: Any, tables: Any,
+    settings: Any, scratch: Any,
+) -> float:  # fmt: skip
     """Advance one creature's gait by `dt` seconds; return the needle's turn, cycles.
 
     `wishes_to_step` keeps the needle of a standing creature turning while a foot is off its place.
+    The tempo is that of the speed now or soon: the first step of a walk is as quick as the second.
     """
-    speed = fastest_foot_speed(c, state, tables)
+    now = plan_pose(c, state)
+    soon = predict(now, SOON * tables.pendulum_time, c, command, tables, settings)
+    speed = max(
+        fastest_foot_speed(c, now, state, tables), fastest_foot_speed(c, soon, state, tables)
+    )
     aim = tempo(
         speed, tables.hip_height, tables.leg_length, tables.upright, command.gait_duty[c, 1],
-        command.gait_duty[c, 2], stance_travel_limit(c, command, tables), command.period[c],
+        command.gait_duty[c, 2], stance_travel_limit(c, state, command, tables), command.period[c],
     )  # fmt: skip
     feet = state.swinging.shape[1]
     in_swing = 0

@@ -35,6 +35,10 @@ TRAVEL_STEP = 0.01
 TRAVEL_DIRECTIONS = 12
 
 
+# At the ends of a stance a leg may be stretched to this share of its longest reach.
+STANCE_END = 0.99
+
+
 def build_ik_table(legs: LegTable) -> IkTable:
     """Return the bones, hinges, limits, fold and reach of every leg.
 
@@ -270,7 +274,7 @@ def _both_ends_reach(ik: IkTable, leg: int, centre: FloatArray, half: FloatArray
     """Say whether both ends of a straight travel about an offset from the hip are within reach."""
     for offset in (centre + half, centre - half):
         size = float(np.linalg.norm(offset))
-        if not ik.shortest[leg] <= size <= ik.comfortable[leg] * (1.0 + 1e-9):
+        if not ik.shortest[leg] <= size <= STANCE_END * ik.longest[leg]:
             return False
         if direction_strain(ik, leg, Vec3(*offset.tolist())) > 1.0:
             return False
