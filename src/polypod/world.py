@@ -51,7 +51,7 @@ def step_creature(
     shift_spacing(c, dt, state, command, tables, settings)
     # 2. Gait: tempo, transition, needle.
     restless = any_off_place(c, state, tables, settings)
-    turn = advance_gait(c, dt, restless, state, command, tables, scratch)
+    turn = advance_gait(c, dt, restless, state, command, tables, settings, scratch)
     # 3. Body on the plane: its default movement, refined by the feet's feedback.
     pose = move_body(c, dt, state, command, tables, settings)
     # 4. Maps, footprints and paths, for the feet that need them.
