@@ -29,6 +29,7 @@ Floats = NDArray[np.float64]
 
 CALM_TRAVEL = 0.1  # leg lengths a frame: beyond it joints may turn as they must
 CHORD_PLACES = 8
+SLOW_WINDOW = 0.7  # s: at less than half of the speed for so long a walk is slow
 
 
 class Finding(NamedTuple):
@@ -84,9 +85,8 @@ def audit(
     played = play(recording)
     ground = Ground(environment)
     walk = _Walk(recording, played)
-    way = float(np.linalg.norm(np.ptp(recording.body_position[[0, -1]][:, [0, 2]], axis=0)))
     return {
-        "distance": Finding(way / commanded, least_share, least=True),
+        "distance": _distance(walk, commanded, least_share),
         "slip": _slip(walk),
         **_standing(walk, ground),
         **_swinging(walk, ground),
@@ -121,6 +121,25 @@ class _Walk:
 
     def foot(self, foot: int) -> str:
         return f"foot {foot} {self.recording.morphology.foot_name[foot]}"
+
+
+def _distance(walk: _Walk, commanded: float, least_share: float) -> Finding:
+    """Return the share of the way that the body got ahead, and where it first lost time."""
+    place, time = walk.recording.body_position[:, [0, 2]], walk.time
+    share = float(np.linalg.norm(place[-1] - place[0])) / commanded
+    speed = commanded / float(time[-1] - time[0])
+    window = max(round(SLOW_WINDOW * len(time) / float(time[-1])), 1)
+    got = np.linalg.norm(place[window:] - place[:-window], axis=1)
+    slow = got < 0.5 * speed * (time[window:] - time[:-window])
+    slow[: 2 * window] = False  # it starts from rest
+    if not slow.any():
+        return Finding(share, least_share, least=True)
+    frame = int(slow.argmax())
+    # The foot that has stood longest by then is the one that holds the body.
+    stood = np.argmax(~walk.recording.foot_stance[frame + window :: -1], axis=0)
+    words = f"slow for {slow.mean() * float(time[-1]):.1f} s in all, held by {{}}"
+    foot = walk.foot(int(stood.argmax()))
+    return Finding(share, least_share, float(time[frame]), words.format(foot), least=True)
 
 
 def _slip(walk: _Walk) -> Finding:
@@ -176,8 +195,22 @@ def _forbidden(walk: _Walk, ground: Ground) -> dict[str, Finding]:
             ends = sole[max(start - 1, 0) : stop + 1]
             chords = [a + (b - a) * share for a, b in pairwise(ends)]
             if chords and ground.over_forbidden(np.concatenate(chords)).any():
-                crossings = walk.finding(crossings.value + 1.0, 0.0, start, foot)
+                found = walk.finding(crossings.value + 1.0, 0.0, start, foot)
+                depth, obstacle = _over(ground, np.concatenate(chords))
+                words = f"{found.where}, {depth / walk.leg[foot]:.4f} legs over obstacle {obstacle}"
+                crossings = found._replace(where=words)
     return {"forb. stands": stances, "forb. swings": crossings}
+
+
+def _over(ground: Ground, points: Floats) -> tuple[float, int]:
+    """Return how far the points come inside a forbidden obstacle's plan outline, m, and which."""
+    table, most, which = ground.environment, 0.0, -1
+    for index in sorted(ground.forbidden):
+        side = table.footprint_side[index, : table.footprint_count[index]]
+        depth = (side[:, 2] - points[:, [0, 2]] @ side[:, :2].T).min(axis=1).max()
+        if depth > most:
+            most, which = float(depth), index
+    return most, which
 
 
 def _limits(walk: _Walk) -> Finding:
