@@ -11,14 +11,15 @@ from polypod.environment.table import EnvironmentTable, is_forbidden
 from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import CandidateScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
-from polypod.math.vec3 import Vec3, distance
-from polypod.paths.check import leg_contact
+from polypod.math.vec3 import Vec3, distance, load_vec3
+from polypod.paths.check import leg_gap
 from polypod.paths.scratch import GridScratch, OtherLegs
 
 # A cell's offer stays this far inside it, cells: lookup and traversal then agree on its cell.
 INSET = 0.02
 # Places picked for each one kept: some that the maps allow fail the exact test.
 PICKS = 2
+STRUCK = -1e300  # the first score of a cell that is out
 
 
 @kernel
@@ -49,8 +50,8 @@ def close_cells(
         for row in range(max(int(low_z / cell), 0), min(int(high_z / cell) + 1, n)):
             z = window.place[1] + (row + 0.5) * cell
             for column in range(max(int(low_x / cell), 0), min(int(high_x / cell) + 1, n)):
-                gap, height = leg_contact(legs, s, window.place[0] + (column + 0.5) * cell, z)
-                if gap < clear and height > window.lowest[row, column] - clear:
+                x = window.place[0] + (column + 0.5) * cell
+                if leg_gap(legs, s, x, z) < clear:
                     grid.closed[row, column] = True
     start_row = int((request.start_world.z - window.place[1]) / cell)
     start_column = int((request.start_world.x - window.place[0]) / cell)
@@ -123,6 +124,17 @@ def list_cells(
 
 
 @kernel
+def rule_out(
+    window: LocalMap, found: CandidateScratch, cells: int, wanted: Vec3, point: Vec3, spacing: float
+) -> None:
+    """Strike the listed cells whose offer is nearer than `spacing` (m) to a place taken."""
+    for k in range(cells):
+        other = offer(window, found.cell[k, 0], found.cell[k, 1], wanted)
+        if math.hypot(other.x - point.x, other.z - point.z) < spacing:
+            found.first_score[k] = STRUCK
+
+
+@kernel
 def judge_candidates(
     env: EnvironmentTable,
     settings: PlanSettings,
@@ -144,10 +156,12 @@ def judge_candidates(
     spacing = settings.candidate_spacing * request.leg_length
     limit = min(settings.candidate_limit, found.score.shape[0] - 1)
     room = kept + limit
+    if kept > 0:
+        rule_out(window, found, cells, request.preferred_world, load_vec3(found.place[0]), spacing)
     for _ in range(PICKS * limit):
         best = -1
         for k in range(cells):
-            if found.first_score[k] > -1e300 and (
+            if found.first_score[k] > STRUCK and (
                 best < 0 or found.first_score[k] > found.first_score[best]
             ):
                 best = k
@@ -155,7 +169,7 @@ def judge_candidates(
             break
         row = found.cell[best, 0]
         column = found.cell[best, 1]
-        found.first_score[best] = -1e301
+        found.first_score[best] = STRUCK
         point = offer(window, row, column, request.preferred_world)
         score, y = judge_place(env, settings, request, legs, near, point.x, point.z)
         if score < 0.0:
@@ -164,10 +178,7 @@ def judge_candidates(
             score, y = judge_place(env, settings, request, legs, near, point.x, point.z)
         if score < 0.0:
             continue
-        for k in range(cells):
-            other = offer(window, found.cell[k, 0], found.cell[k, 1], request.preferred_world)
-            if math.hypot(other.x - point.x, other.z - point.z) < spacing:
-                found.first_score[k] = -1e301
+        rule_out(window, found, cells, request.preferred_world, point, spacing)
         # Insertion keeps the places in descending order of score.
         at = kept
         while at > 0 and found.score[at - 1] < score:

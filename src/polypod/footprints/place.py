@@ -9,7 +9,7 @@ from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable, is_forbidden, is_wet, surface
 from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
 from polypod.math.vec3 import Vec3, distance
-from polypod.paths.check import leg_contact
+from polypod.paths.check import leg_gap
 from polypod.paths.near import obstacles_near
 from polypod.paths.scratch import OtherLegs
 
@@ -131,6 +131,20 @@ def exit_score(
 
 
 @kernel
+def is_foot_wet(env: EnvironmentTable, foot: FootShape, x: float, z: float) -> bool:
+    """Return whether the middle or a corner of the foot's shape lies in water."""
+    if env.water.shape[0] == 0:
+        return False
+    for corner in range(5):
+        a = foot.half_x * (0.0 if corner == 4 else (1.0 if corner < 2 else -1.0))
+        b = foot.half_z * (0.0 if corner == 4 else (1.0 if corner % 2 == 0 else -1.0))
+        at_x = x + a * foot.cosine + b * foot.sine
+        if is_wet(env, at_x, z - a * foot.sine + b * foot.cosine):
+            return True
+    return False
+
+
+@kernel
 def crosses_leg(legs: OtherLegs, s: int, hip: Vec3, x: float, z: float) -> bool:
     """Return whether, in plan, the line from the hip to the place crosses leg segment `s`."""
     ax = legs.a[s, 0]
@@ -148,7 +162,7 @@ def crosses_leg(legs: OtherLegs, s: int, hip: Vec3, x: float, z: float) -> bool:
 
 @kernel
 def leg_factor(
-    settings: PlanSettings, request: StepRequest, legs: OtherLegs, x: float, y: float, z: float
+    settings: PlanSettings, request: StepRequest, legs: OtherLegs, x: float, z: float
 ) -> float:
     """Return 1, the factor for crossed legs, or REJECTED where another leg is in the place."""
     leg = request.leg_length
@@ -156,9 +170,9 @@ def leg_factor(
     factor = 1.0
     for s in range(request.other_foot_count):
         clear = legs.radius[s] + foot + settings.leg_gap * leg
-        gap, height = leg_contact(legs, s, x, z)
-        if gap < clear and height > y - clear:
-            at_start, _ = leg_contact(legs, s, request.start_world.x, request.start_world.z)
+        gap = leg_gap(legs, s, x, z)
+        if gap < clear:
+            at_start = leg_gap(legs, s, request.start_world.x, request.start_world.z)
             if gap < 0.999 * at_start:
                 return REJECTED
         if crosses_leg(legs, s, request.hip_touchdown, x, z):
@@ -211,10 +225,10 @@ def judge_place(
     """
     y, _ = surface(env, x, z)
     reach = reach_score(settings, request, Vec3(x, y, z))
-    if reach < 0.0 or is_wet(env, x, z):
+    foot = foot_shape(request)
+    if reach < 0.0 or is_foot_wet(env, foot, x, z):
         return REJECTED, y
     leg = request.leg_length
-    foot = foot_shape(request)
     margin = foot.radius + settings.forbidden_margin * leg
     if is_forbidden(env, x, z, margin):
         return REJECTED, y
@@ -240,7 +254,7 @@ def judge_place(
     ):
         heading = math.atan2(course_x, course_z)
         leave = exit_score(env, margin, x, z, high, heading, step)
-    factor = leg_factor(settings, request, legs, x, y, z)
+    factor = leg_factor(settings, request, legs, x, z)
     if factor < 0.0:
         return REJECTED, y
     away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)

@@ -33,6 +33,7 @@ __all__ = ["PlanScratch", "make_plan_scratch", "plan_step"]
 UNHINDERED = 0.97
 # Room about start, preferred place and search radius for ways around, leg lengths.
 DETOUR = 0.25
+ROUNDS = 3
 
 
 @kernel
@@ -207,21 +208,30 @@ def plan_step(
         scratch.found.place[0, 2] = end.z
         scratch.found.place_cell[0, 0] = int((end.z - window.place[1]) / window.place[2])
         scratch.found.place_cell[0, 1] = int((end.x - window.place[0]) / window.place[2])
-    kept = judge_candidates(env, settings, request, legs, window, cells, near, scratch.found, kept)
-    slices = place_slices(
-        scratch.grid,
-        window.highest,
-        window.place,
-        window.size[0],
-        scratch.found.place,
-        kept,
-        start,
-        max(start.y, y),
-        settings.slice_limit,
-        settings.slice_thickness * request.step_height,
-    )
-    best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
-    scratch.tally[TALLY_CANDIDATES] = kept
-    for layer in range(slices):
-        scratch.tally[TALLY_WAVEFRONTS] += scratch.grid.spread[layer]
+    # Where no pair of the first candidates is valid, the next ones get their turn.
+    for _ in range(ROUNDS):
+        kept = judge_candidates(
+            env, settings, request, legs, window, cells, near, scratch.found, kept
+        )
+        if kept == 0:
+            break
+        slices = place_slices(
+            scratch.grid,
+            window.highest,
+            window.place,
+            window.size[0],
+            scratch.found.place,
+            kept,
+            start,
+            max(start.y, y),
+            settings.slice_limit,
+            settings.slice_thickness * request.step_height,
+        )
+        best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
+        scratch.tally[TALLY_CANDIDATES] += kept
+        for layer in range(slices):
+            scratch.tally[TALLY_WAVEFRONTS] += scratch.grid.spread[layer]
+        if best >= 0.0:
+            break
+        kept = 0
     return best >= 0.0, max(best, 0.0)

@@ -20,8 +20,8 @@ EXACT_SAMPLES = 3
 
 
 @kernel
-def leg_contact(legs: OtherLegs, s: int, x: float, z: float) -> tuple[float, float]:
-    """Return the distance in plan to leg segment `s` and the segment's height there; m."""
+def leg_gap(legs: OtherLegs, s: int, x: float, z: float) -> float:
+    """Return the distance in plan from a place to leg segment `s`; m."""
     a_x = legs.a[s, 0]
     a_z = legs.a[s, 2]
     step_x = legs.b[s, 0] - a_x
@@ -30,19 +30,17 @@ def leg_contact(legs: OtherLegs, s: int, x: float, z: float) -> tuple[float, flo
     u = 0.0
     if square > 0.0:
         u = min(max(((x - a_x) * step_x + (z - a_z) * step_z) / square, 0.0), 1.0)
-    height = legs.a[s, 1] + (legs.b[s, 1] - legs.a[s, 1]) * u
-    if square <= 0.0:
-        height = max(legs.a[s, 1], legs.b[s, 1])
-    return math.hypot(x - a_x - step_x * u, z - a_z - step_z * u), height
+    return math.hypot(x - a_x - step_x * u, z - a_z - step_z * u)
 
 
 @kernel
 def meets_legs(legs: OtherLegs, count: int, gap_wanted: float, path: PathRow) -> bool:
     """Return whether the foot would meet another leg on the path.
 
-    A leg hangs above its sole, so passing beneath another leg is as bad as passing through it. A
-    foot that starts beside another leg may stay as near as it is. `count` segments are there;
-    `gap_wanted` (m) is the foot's radius and the room beside it.
+    As in P1 section 4 the other legs' projections count: a leg hangs above its sole, and sweeps
+    through what the sole passes over or under. A foot that starts beside another leg may stay as
+    near as it is. `count` segments are there; `gap_wanted` (m) is the foot's radius and the room
+    beside it.
     """
     for s in range(count):
         clear = legs.radius[s] + gap_wanted
@@ -50,15 +48,14 @@ def meets_legs(legs: OtherLegs, count: int, gap_wanted: float, path: PathRow) ->
         x1 = max(legs.a[s, 0], legs.b[s, 0]) + clear
         z0 = min(legs.a[s, 2], legs.b[s, 2]) - clear
         z1 = max(legs.a[s, 2], legs.b[s, 2]) + clear
-        at_start, _ = leg_contact(legs, s, path.point[0, 0], path.point[0, 2])
+        at_start = leg_gap(legs, s, path.point[0, 0], path.point[0, 2])
         allowed = min(clear, 0.999 * at_start)
         for k in range(1, PATH_KNOTS):
             x = path.point[k, 0]
             z = path.point[k, 2]
             if x < x0 or x > x1 or z < z0 or z > z1:
                 continue
-            gap, height = leg_contact(legs, s, x, z)
-            if gap < allowed and height > path.point[k, 1] - clear:
+            if leg_gap(legs, s, x, z) < allowed:
                 return True
     return False
 
