@@ -88,7 +88,8 @@ def list_cells(
     leg = request.leg_length
     wanted = request.preferred_world
     offset = request.effector_offset_touchdown
-    tolerance = settings.uneven * leg + settings.slope * 1.5 * cell
+    foot = max(request.foot_half_x, request.foot_half_z)
+    tolerance = settings.uneven * leg + settings.uneven_foot * foot + settings.slope * 1.5 * cell
     first_row = max(int((wanted.z - request.search_radius - window.place[1]) / cell), 0)
     last_row = min(int((wanted.z + request.search_radius - window.place[1]) / cell), n - 1)
     first = max(int((wanted.x - request.search_radius - window.place[0]) / cell), 0)

@@ -236,9 +236,8 @@ def judge_place(
     level = env.terrain_range[0] == env.terrain_range[1]
     wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
     if not level or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
-        even = even_score(
-            env, foot, settings.toe * leg, settings.slope, settings.uneven * leg, x, y, z
-        )
+        tolerance = settings.uneven * leg + settings.uneven_foot * foot.radius
+        even = even_score(env, foot, settings.toe * leg, settings.slope, tolerance, x, y, z)
         if even < 0.0:
             return REJECTED, y
         edge = edge_score(

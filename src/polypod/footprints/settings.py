@@ -39,7 +39,8 @@ class PlanSettings(NamedTuple):
     penetration: float = 0.0005  # accepted by the exact check of a path, leg lengths
 
     # What can be stood on.
-    uneven: float = 0.02  # largest departure from a plane under the foot, leg lengths
+    uneven: float = 0.02  # largest departure from a plane under the foot, leg lengths,
+    uneven_foot: float = 0.2  # and what a larger foot may have more, shares of its half extent
     slope: float = 1.2  # steepest plane under the foot, tangent of the angle (50 degrees)
     drop: float = 0.03  # a larger difference beside the foot is an edge, leg lengths
 
