@@ -13,19 +13,23 @@ import signal
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.util import find_spec
-from types import ModuleType
 from typing import Any, NoReturn
 
 from polypod import __version__
 from polypod.errors import PolypodError
-from polypod.jobs import gait, rig, walk, warmup
 
 BAD_INPUT = 2
 BUG = 1
 INTERRUPTED = 130
 TERMINATED = 143
-JOBS: dict[str, ModuleType] = {"walk": walk, "rig": rig, "gait": gait, "warmup": warmup}
+# Each is a module of polypod.jobs with `add_arguments` and `run`, or `run_bench`.
+JOBS = {
+    "walk": "make a creature walk",
+    "rig": "say what was found in a rig",
+    "gait": "list gaits, or show one",
+    "bench": "measure this machine, beside the paper's own figures",
+    "warmup": "compile everything now",
+}
 
 
 class Parser(argparse.ArgumentParser):
@@ -53,22 +57,17 @@ def make_parser() -> Parser:
     )
     parser.add_argument("--version", action="version", version=f"polypod {__version__}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    for name, job in JOBS.items():
+    for name, summary in JOBS.items():
+        job = import_module(f"polypod.jobs.{name}")
         command = commands.add_parser(
             name,
-            help=job.HELP,
-            description=job.DESCRIPTION,
+            help=summary,
+            description=getattr(job, "DESCRIPTION", summary),
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
         job.add_arguments(command)
-        command.set_defaults(run=job.run)
-    if find_spec("polypod.jobs.bench") is not None:
-        bench = commands.add_parser(
-            "bench", help="measure this machine, beside P1's Table 1", allow_abbrev=False
-        )
-        import_module("polypod.jobs.bench").add_arguments(bench)
-        bench.set_defaults(run=lambda given: import_module("polypod.jobs.bench").run_bench(given))
+        command.set_defaults(run=job.run_bench if name == "bench" else job.run)
     return parser
 
 

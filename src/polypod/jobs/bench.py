@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from polypod.jobs.outputs import judge_output
 from polypod.jobs.screen import note, telling_of_compilation
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_bench(arguments: argparse.Namespace) -> int:
     """Measure, print the table, write the JSON if asked for; return the exit code."""
+    if arguments.json:
+        judge_output("--json", arguments.json, (".json",))
     with telling_of_compilation():
         crowd(2, threads=1).step(1.0 / FPS)
     figures = measure_all(first_run=not arguments.no_first_run)

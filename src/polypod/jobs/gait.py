@@ -14,7 +14,6 @@ from polypod.jobs.values import filled, number, whole
 if TYPE_CHECKING:
     from polypod.gait.pattern import Gait, IntArray
 
-HELP = "list gaits, or show one"
 DESCRIPTION = """Without a name lists all gaits; with one shows its disks: # stands, . swings.
 
   polypod gait trot --legs 4

@@ -7,7 +7,6 @@ import argparse
 from polypod.jobs.rig_options import RIG_HELP, add_rig_options, load_given_rig
 from polypod.jobs.values import filled
 
-HELP = "say what was found in a rig"
 DESCRIPTION = "Prints a rig's joints, legs, spine, limits and size, and what was guessed of it."
 
 

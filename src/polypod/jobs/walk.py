@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from polypod.jobs.cast import Role
     from polypod.report.record import Recording
 
-HELP = "make a creature walk"
 DESCRIPTION = """Makes a creature walk and writes the walk.
 
   polypod walk spider --scene crates.toml -o walk.glb -o walk.png

@@ -7,7 +7,6 @@ import argparse
 from polypod.jobs.rig_options import DEFAULT_RIG
 from polypod.jobs.screen import telling_of_compilation
 
-HELP = "compile everything now"
 DESCRIPTION = "Compiles all kernels, which the first walk would do otherwise, and keeps them."
 
 
