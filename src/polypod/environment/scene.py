@@ -30,6 +30,7 @@ MOST_WAYPOINTS = 10_000
 LARGEST_TURN = 1e4  # rad
 FASTEST = 1e3  # m/s
 LATEST = 1e6  # s
+LARGEST_SEED = 2**62
 # Keys of the format that this version refuses: of obstacles that move and of meshes.
 LATER = ("file", "velocity", "path", "speed")
 
@@ -84,11 +85,13 @@ class Scene:
         return Environment(self.terrain, self.obstacles)
 
 
-def read_scene(path: str | Path) -> Scene:
+def read_scene(path: str | Path, seed: int = 0) -> Scene:
     """Read a scene file.
 
     Args:
         path: a TOML file; files that it names are found from its own folder.
+        seed: added to each seed of the scene, of its terrain and of what it scatters: the same
+            kind of place, another place.
 
     Returns:
         The scene, every value judged.
@@ -105,10 +108,12 @@ def read_scene(path: str | Path) -> Scene:
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{path}: the scene is no valid TOML ({error})") from None
     top = SceneTable(str(path), values, ("terrain", "obstacle", "scatter", "creature", "push"))
-    terrain = _terrain(path, top.values["terrain"]) if "terrain" in top else Terrain.flat()
+    terrain = Terrain.flat()
+    if "terrain" in top:
+        terrain = _terrain(path, top.values["terrain"], seed)
     obstacles = [_obstacle(place, entry) for place, entry in _entries(top, "obstacle")]
     for place, entry in _entries(top, "scatter"):
-        obstacles += _scatter(place, entry, terrain)
+        obstacles += _scatter(place, entry, terrain, seed)
     creatures = tuple(_creature(place, entry) for place, entry in _entries(top, "creature"))
     number = sum(creature.count for creature in creatures) if creatures else 1
     for what, much in (("obstacles", len(obstacles)), ("creatures", number)):
@@ -136,7 +141,7 @@ def _within(place: str, make: Callable[[], Made]) -> Made:
         raise SceneError(f"{place}: {error}") from None
 
 
-def _terrain(path: Path, values: Any) -> Terrain:
+def _terrain(path: Path, values: Any, more_seed: int) -> Terrain:
     place = f"{path}: [terrain]"
     if isinstance(values, dict) and "generator" in values:
         generator = values["generator"]
@@ -146,6 +151,8 @@ def _terrain(path: Path, values: Any) -> Terrain:
             )
         table = SceneTable(place, values, ("generator", *generator_keys(generator)))
         keys = {key: value for key, value in table.values.items() if key != "generator"}
+        if "seed" in generator_keys(generator):
+            keys["seed"] = table.whole("seed", 0, 0, LARGEST_SEED) + more_seed
         return _within(place, lambda: generated(generator, **keys))
     table = SceneTable(
         place, values, ("heightmap", "cell", "relief", "origin", "water", "generator")
@@ -208,12 +215,12 @@ def _obstacle(place: str, values: Any) -> Obstacle:
     return _within(place, lambda: Obstacle(shape, (x, y, z), centre, rotation, forbidden, name))
 
 
-def _scatter(place: str, values: Any, terrain: Terrain) -> tuple[Obstacle, ...]:
+def _scatter(place: str, values: Any, terrain: Terrain, more_seed: int) -> tuple[Obstacle, ...]:
     table = SceneTable(place, values, ("name", "count", "area", "size", "seed", "forbidden_share"))
     count = table.whole("count", None, 0, MOST_THINGS)
     area = table.numbers("area", "x0 z0 x1 z1", None, -LARGEST, LARGEST)
     size = table.rows("size", "x y z", 2, 2)
-    seed = table.whole("seed", 0, 0, 2**63 - 1)
+    seed = table.whole("seed", 0, 0, LARGEST_SEED) + more_seed
     share = table.number("forbidden_share", 0.0, 0.0, 1.0)
     name = table.text("name", "crate")
     return _within(place, lambda: scatter(terrain, count, area, size, seed, share, name))

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from polypod.errors import SettingError
-from polypod.jobs.outputs import Outputs, judge_outputs, write_outputs
+from polypod.jobs.outputs import judge_outputs, write_outputs
 from polypod.jobs.rig_options import DEFAULT_RIG, RIG_HELP, add_rig_options
-from polypod.jobs.screen import progress, telling_of_compilation, warn
+from polypod.jobs.screen import note, progress, telling_of_compilation, warn
 from polypod.jobs.values import filled, number, waypoints, whole
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def run(given: argparse.Namespace) -> int:
     from polypod.environment.scene import read_scene
     from polypod.jobs.cast import cast_roles, walking_seconds
 
-    scene = read_scene(given.scene) if given.scene is not None else None
+    scene = read_scene(given.scene, given.seed) if given.scene is not None else None
     roles = cast_roles(given, scene)
     seconds = given.seconds
     if seconds is None:
@@ -101,7 +101,7 @@ def run(given: argparse.Namespace) -> int:
         recordings, environment = _walk(roles, scene, seconds, given.fps)
         reports = _judge_walks(roles, recordings, environment, seconds)
         written = write_outputs(outputs, recordings, environment, reports)
-    _sum_up(reports, written, outputs)
+    _sum_up(reports, written)
     return 0
 
 
@@ -177,7 +177,7 @@ def _judge_walks(
     return reports
 
 
-def _sum_up(reports: list[dict[str, Any]], written: list[Path], outputs: Outputs) -> None:
+def _sum_up(reports: list[dict[str, Any]], written: list[Path]) -> None:
     """Print a line a creature, what failed, and what was written."""
     for report in reports[:10]:
         slip = 1000.0 * report.get("stance_slip_of_leg", 0.0) * report["leg_length_m"]
@@ -191,8 +191,10 @@ def _sum_up(reports: list[dict[str, Any]], written: list[Path], outputs: Outputs
     for report in reports:
         for failure in report["failures"]:
             warn(f"{report['creature']}: {failure}")
-    print("wrote " + ", ".join(str(path) for path in written) if written else _nothing(outputs))
-
-
-def _nothing(outputs: Outputs) -> str:
-    return "nothing was written; -o walk.glb writes the walk, -o walk.png pictures of it"
+    for report in reports[:10]:
+        for remark in report["remarks"]:
+            note(f"polypod: worth a look: {report['creature']}: {remark}")
+    if written:
+        print("wrote " + ", ".join(str(path) for path in written))
+    else:
+        print("nothing was written; -o walk.glb writes the walk, -o walk.png pictures of it")
