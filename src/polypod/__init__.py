@@ -9,6 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from polypod.cache import use_kernel_cache
+
 if TYPE_CHECKING:
     from polypod.config import Settings
     from polypod.environment.environment import Environment
@@ -28,6 +30,8 @@ if TYPE_CHECKING:
     from polypod.world import World
 
 __version__ = "0.1.0"
+
+use_kernel_cache()
 
 _HOMES = {
     "Environment": "polypod.environment.environment",

@@ -6,56 +6,18 @@ Python, for debugging and coverage.
 
 from __future__ import annotations
 
-import hashlib
 import os
-import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from pathlib import Path
 from typing import Any, TypeVar, cast
+
+import numba
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-PACKAGE_FOLDER = Path(__file__).parent
 # Below this many creatures a thread costs more than it saves (measured: about 40 us a hand-over).
 CREATURES_WORTH_A_THREAD = 2
-
-
-def user_cache_folder() -> Path:
-    """Return the folder for compiled kernels, following each system's custom."""
-    if "POLYPOD_CACHE" in os.environ:
-        return Path(os.environ["POLYPOD_CACHE"])
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA", Path.home() / "AppData" / "Local")) / "polypod"
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "polypod"
-    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "polypod"
-
-
-@cache
-def source_digest() -> str:
-    """Return a digest of all the package's sources.
-
-    Numba's cache does not notice an edited callee in another file and then gives wrong answers, so
-    the cache folder is named after all the sources together.
-    """
-    digest = hashlib.sha256()
-    for path in sorted(PACKAGE_FOLDER.rglob("*.py")):
-        digest.update(path.relative_to(PACKAGE_FOLDER).as_posix().encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def kernel_cache_folder() -> Path:
-    """Return the folder that holds the kernels compiled from the present sources."""
-    return user_cache_folder() / "kernels" / source_digest()
-
-
-# Must be set before Numba is imported: it reads the variable once.
-os.environ.setdefault("NUMBA_CACHE_DIR", str(kernel_cache_folder()))
-
-import numba  # noqa: E402
 
 
 def kernel(function: Function) -> Function:

@@ -99,7 +99,7 @@ def telling_of_compilation() -> Iterator[None]:
     prepare_cache()
     from numba.core import event
 
-    from polypod.compute import kernel_cache_folder
+    from polypod.cache import kernel_cache_folder
 
     folder = kernel_cache_folder()
     counter = CompileCounter(first_run=not any(folder.rglob("*.nbi")))
@@ -127,7 +127,7 @@ def prepare_cache() -> None:
 
     from numba.core import config
 
-    from polypod.compute import kernel_cache_folder
+    from polypod.cache import kernel_cache_folder
 
     settings: Any = config
     folder = settings.CACHE_DIR

@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> int:
     """Walk a little over crates and judge it: that asks for every kernel."""
     with telling_of_compilation():
-        from polypod.compute import kernel_cache_folder
+        from polypod.cache import kernel_cache_folder
         from polypod.environment.environment import Environment
         from polypod.environment.obstacles import scatter
         from polypod.environment.terrain import Terrain
