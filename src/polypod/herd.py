@@ -22,6 +22,8 @@ from polypod.state import HerdTables, JointTable, make_command, make_state
 WAYPOINT_ROOM = 256
 # A trunk on two legs cannot follow the slope between its feet: it would nod at each step.
 TWO_LEGGED_TILT = 0.25
+# One on tall legs bends them sooner than it tilts.
+UPRIGHT_TILT = 0.75
 
 
 class Scratch(NamedTuple):
@@ -31,6 +33,8 @@ class Scratch(NamedTuple):
     path: PathRow  # the path just planned, before it is taken
     hull: FloatArray  # [points, 2]
     progress: FloatArray  # [K]
+    sole: FloatArray  # [K, 3]
+    turn: FloatArray  # [K, 4]
     held: BoolArray  # [K]
     start: FloatArray  # [K]
     extent: FloatArray  # [K]
@@ -52,6 +56,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
     driven[legs.joint[legs.joint >= 0]] = True
     driven[legs.foot_joint[legs.foot_joint >= 0]] = True
     leg_length = float(np.mean(legs.length))
+    upright = bool(np.mean(legs.upright) > 0.5)
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
     return HerdTables(
         legs=legs,
@@ -61,8 +66,8 @@ def make_tables(morphology: Morphology) -> HerdTables:
         leg_length=leg_length,
         hip_height=max(hip_height, 0.05 * leg_length),
         pendulum_time=math.sqrt(leg_length / GRAVITY),
-        tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
-        upright=bool(np.mean(legs.upright) > 0.5),
+        tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else (UPRIGHT_TILT if upright else 1.0),
+        upright=upright,
     )
 
 
@@ -116,6 +121,8 @@ class Herd:
                 path=PathRow(*(array[0, 0] for array in path)),
                 hull=make_hull_scratch(feet),
                 progress=np.zeros(feet),
+                sole=np.zeros((feet, 3)),
+                turn=np.zeros((feet, 4)),
                 held=np.zeros(feet, np.bool_),
                 start=np.zeros(feet),
                 extent=np.zeros(feet),

@@ -61,7 +61,8 @@ class HerdState(NamedTuple):
     stood: FloatArray  # [C, K] cycles since it landed
     lift_phase: FloatArray  # [C, K] needle at lift-off, or at the last new plan
     swing_progress: FloatArray  # [C, K] of the time from there to touchdown, 0 to 1
-    waiting: FloatArray  # [C, K] s since a foot wished to lift and found no place
+    waiting: FloatArray  # [C, K] s for which a foot has wished to lift and found no place
+    wish: FloatArray  # [C, K, 3] where it would then have liked to land
     foot: FloatArray  # [C, K, 3] the sole as planned
     foot_start: FloatArray  # [C, K, 3] the sole at lift-off
     foot_target: FloatArray  # [C, K, 3] the footprint it is going to, or stands on
@@ -143,7 +144,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         (c, k),
     )
     places = dict.fromkeys(
-        ("foot", "foot_start", "foot_target", "foot_preferred", "foot_reached"), (c, k, 3)
+        ("foot", "foot_start", "foot_target", "foot_preferred", "foot_reached", "wish"), (c, k, 3)
     )
     turns = dict.fromkeys(
         ("foot_rotation", "foot_rotation_start", "foot_rotation_target"), (c, k, 4)

@@ -15,7 +15,7 @@ from polypod.compute import kernel, over_creatures, thread_count
 from polypod.config import Settings
 from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.spawn import spawn
-from polypod.controller.steering import PlanPose, move_body
+from polypod.controller.steering import move_body, note_pose
 from polypod.controller.swing import any_off_place, lift_feet, replan_feet, shift_spacing
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
@@ -27,18 +27,11 @@ from polypod.gait.needle import minimum_feet_down, step_count
 from polypod.gait.pattern import Gait
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
+from polypod.math.vec3 import load_vec3
 from polypod.morphology.types import Morphology
 from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
-
-
-@kernel
-def note_pose(c: int, pose: PlanPose, state: Any) -> None:
-    """Keep what steering decided; where the body really gets is settled by its legs."""
-    state.turn_rate[c] = pose.turn_rate
-    state.speed[c] = pose.speed
-    state.waypoint[c] = int(pose.waypoint)
 
 
 @kernel
@@ -63,8 +56,9 @@ def step_creature(
     lean = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
     height = wished_height(c, dt, pose, plane, lean, state, command, tables, settings, env, scratch)
     # 6. Reach: the body goes as far as its legs allow, and the swinging feet with it.
-    note_pose(c, pose, state)
+    before = load_vec3(state.position[c])
     settle_body(c, dt, pose, height, state, tables, scratch)
+    note_pose(c, dt, pose, before, state, command, tables, settings)
     advance_swings(c, state, scratch, env)
     # 7. Inverse kinematics: a pose for every joint.
     pose_joints(c, state, tables, scratch)

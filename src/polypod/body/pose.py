@@ -18,6 +18,10 @@ from polypod.math.vec3 import Vec3, load_vec3
 
 # P1's sinusoid is never larger than this, hip heights.
 LARGEST_BOB = 0.02
+# How far the body sinks, preferred heights: for legs that lag, which looks worse than waiting for
+# them; and for legs that else find no place.
+SHALLOW = 0.15
+DEEP = 0.35
 
 
 @kernel
@@ -53,28 +57,43 @@ def bob(c: int, state: Any, tables: Any, settings: Any) -> float:
 
 
 @kernel
-def highest(
-    c: int, pose: PlanPose, turn: Quat, state: Any, command: Any, tables: Any
+def highest_over(
+    k: int, place: Vec3, foot_turn: Quat, pose: PlanPose, turn: Quat, tables: Any
 ) -> float:
-    """Return the greatest height at which all feet, also those about to land, are in reach.
+    """Return the greatest height of the body at which a leg reaches a place for its sole."""
+    ankle = effector_world(k, tables, place, foot_turn)
+    hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
+    reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
+    dx = pose.x + hip.x - ankle.x
+    dz = pose.z + hip.z - ankle.z
+    flat = min(dx * dx + dz * dz, 0.9 * reach * reach)
+    return ankle.y + math.sqrt(reach * reach - flat) - hip.y
 
-    A foot about to land will be met by a body that has moved on until then.
+
+@kernel
+def highest(
+    c: int, base: float, pose: PlanPose, turn: Quat, state: Any, command: Any, tables: Any
+) -> float:
+    """Return how high above `base` the body may be, metres, so that all legs reach their places.
+
+    That is where feet stand; where those about to land will be met by a body that has moved on
+    until then; and where those would go that found no place, which lets the body sink farther.
     """
-    best = math.inf
     course = pose.heading + command.travel[c]
+    shallow = math.inf
+    deep = math.inf
     for k in range(state.swinging.shape[1]):
         place = load_vec3(state.foot_target[c, k])
+        foot_turn = load_quat(state.foot_rotation_target[c, k])
         if state.swinging[c, k]:
             way = pose.speed * swing_time_left(c, k, state)
             place = place - Vec3(math.sin(course) * way, 0.0, math.cos(course) * way)
-        ankle = effector_world(k, tables, place, load_quat(state.foot_rotation_target[c, k]))
-        hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
-        reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
-        dx = pose.x + hip.x - ankle.x
-        dz = pose.z + hip.z - ankle.z
-        flat = min(dx * dx + dz * dz, 0.9 * reach * reach)
-        best = min(best, ankle.y + math.sqrt(reach * reach - flat) - hip.y)
-    return best
+        elif state.waiting[c, k] > 0.0:
+            wish = load_vec3(state.wish[c, k])
+            deep = min(deep, highest_over(k, wish, foot_turn, pose, turn, tables) - base)
+        shallow = min(shallow, highest_over(k, place, foot_turn, pose, turn, tables) - base)
+    height = command.body_height[c]
+    return min(max(shallow, -SHALLOW * height), max(deep, -DEEP * height))
 
 
 @kernel
@@ -121,6 +140,5 @@ def wished_height(
     ahead = abs(state.speed[c]) * seconds
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
     extra = max(0.0, least - base)
-    most = highest(c, pose, turn, state, command, tables)
-    extra = min(extra, most - base)
+    extra = min(extra, highest(c, base, pose, turn, state, command, tables))
     return base + follow(state.lift[c], extra, seconds, dt) + bob(c, state, tables, settings)

@@ -12,6 +12,8 @@ from polypod.math.vec3 import Vec3, length, load_vec3
 PASSES = 16
 # A target this near to the edge of the reach, in leg lengths, counts as inside.
 TOLERANCE = 2e-5
+# A swinging foot farther out of reach than this, leg lengths, waits instead of pulling the body.
+SWING_PULL = 0.015
 
 
 @kernel
@@ -37,24 +39,28 @@ def foot_shift(
 
 
 @kernel
-def body_within_reach(c: int, state: Any, tables: Any, position: Vec3, turn: Quat) -> Vec3:
-    """Return the position nearest to `position` at which all stance feet are within reach.
+def body_within_reach(
+    c: int, state: Any, tables: Any, scratch: Any, position: Vec3, turn: Quat
+) -> Vec3:
+    """Return the position nearest to `position` at which the feet in the scratch are in reach.
 
     Each pass moves the body against each foot's own shift in turn (projections onto nearly convex
-    sets); it ends where no foot asks for more, or with what the passes reached.
+    sets); it ends where no foot asks for more, or with what the passes reached. A swinging foot
+    that is far out of reach does not pull: it can wait.
     """
     tolerance = TOLERANCE * tables.leg_length
     for _ in range(PASSES):
         worst = 0.0
         for k in range(state.swinging.shape[1]):
-            if not state.swinging[c, k]:
-                sole = load_vec3(state.foot[c, k])
-                foot_turn = load_quat(state.foot_rotation[c, k])
-                shift = foot_shift(k, tables, sole, foot_turn, position, turn)
-                size = length(shift)
-                if size > tolerance:
-                    position = position - shift * (1.0 + 0.2 * tolerance / size)
-                worst = max(worst, size)
+            sole = load_vec3(scratch.sole[k])
+            foot_turn = load_quat(scratch.turn[k])
+            shift = foot_shift(k, tables, sole, foot_turn, position, turn)
+            size = length(shift)
+            if state.swinging[c, k] and size > SWING_PULL * tables.leg_length:
+                continue
+            if size > tolerance:
+                position = position - shift * (1.0 + 0.2 * tolerance / size)
+            worst = max(worst, size)
         if worst <= tolerance:
             break
     return position

@@ -16,6 +16,9 @@ from polypod.ik.foot import foot_rotation
 from polypod.math.quat import rotate, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
 
+# A foot that found no place for so many cycles may cross the other legs.
+CROWDED = 0.5
+
 
 @kernel
 def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
@@ -138,6 +141,8 @@ def plan_foot(
     hip = hip_at(c, k, landing, state, tables)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
     others = gather_other_legs(c, k, state, tables, scratch.plan)
+    if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
+        others = 0
     request = StepRequest(
         start,
         velocity,

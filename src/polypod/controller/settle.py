@@ -8,7 +8,7 @@ from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
-from polypod.controller.swing import foot_along, store_foot, wished_progress
+from polypod.controller.swing import foot_along, wished_progress
 from polypod.environment.table import surface
 from polypod.math.quat import Quat, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
@@ -18,24 +18,36 @@ ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
 
 
 @kernel
-def feet_fit(
-    c: int, dt: float, position: Vec3, turn: Quat, state: Any, tables: Any, scratch: Any
-) -> bool:
+def wish_feet(c: int, dt: float, state: Any, scratch: Any) -> None:
+    """Write to the scratch where every foot should be at the end of the frame."""
+    for k in range(state.swinging.shape[1]):
+        scratch.progress[k] = 0.0
+        sole = load_vec3(state.foot[c, k])
+        turn = load_quat(state.foot_rotation[c, k])
+        if state.swinging[c, k]:
+            scratch.progress[k] = wished_progress(c, k, dt, state)
+            sole, turn = foot_along(c, k, scratch.progress[k], state)
+        store_vec3(scratch.sole[k], sole)
+        store_quat(scratch.turn[k], turn)
+
+
+@kernel
+def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratch: Any) -> bool:
     """Return whether every foot is within reach of a body pose, swinging ones as far as they may.
 
-    A swinging foot goes on along its path if its leg can follow, or else waits where it is. Writes
-    each one's progress to the scratch; the feet themselves are not moved.
+    A swinging foot goes on along its path if its leg can follow, or else waits where it is: it is
+    noted in `scratch.held`. The feet themselves are not moved.
     """
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
-        scratch.progress[k] = 0.0
-        if state.swinging[c, k]:
-            progress = wished_progress(c, k, dt, state)
-            sole, foot_turn = foot_along(c, k, progress, state)
-            if length(foot_shift(k, tables, sole, foot_turn, position, turn)) <= tolerance:
-                scratch.progress[k] = progress
-                continue
-            scratch.progress[k] = state.swing_progress[c, k]
+        scratch.held[k] = False
+        sole = load_vec3(scratch.sole[k])
+        foot_turn = load_quat(scratch.turn[k])
+        if length(foot_shift(k, tables, sole, foot_turn, position, turn)) <= 2.0 * tolerance:
+            continue
+        if not state.swinging[c, k]:
+            return False
+        scratch.held[k] = True
         sole = load_vec3(state.foot[c, k])
         foot_turn = load_quat(state.foot_rotation[c, k])
         if length(foot_shift(k, tables, sole, foot_turn, position, turn)) > 2.0 * tolerance:
@@ -49,20 +61,21 @@ def settle_body(
 ) -> None:
     """Move the body as far toward its wished pose as its legs allow, and the swinging feet along.
 
-    The body first moves least so that all stance soles are within reach. Where that is not enough,
-    shares of the frame's advance are tried down to none: the pose before was within reach of every
-    foot, so a pose that keeps all soles always exists.
+    The body first moves least so that all soles are within reach. Where that is not enough, shares
+    of the frame's advance are tried down to none: the pose before was within reach of every foot,
+    so a pose that keeps all soles always exists.
     """
     before = load_vec3(state.position[c])
     turn_before = load_quat(state.rotation[c])
     turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
     wished = Vec3(pose.x, height, pose.z)
-    wished = body_within_reach(c, state, tables, wished, turn)
+    wish_feet(c, dt, state, scratch)
+    wished = body_within_reach(c, state, tables, scratch, wished, turn)
     heading_before = state.heading[c]
     for share in ADVANCES:
         position = mix(before, wished, share)
         turned = slerp(turn_before, turn, share)
-        if feet_fit(c, dt, position, turned, state, tables, scratch) or share == 0.0:
+        if feet_fit(c, position, turned, state, tables, scratch) or share == 0.0:
             state.held[c] = share
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
@@ -78,11 +91,13 @@ def advance_swings(c: int, state: Any, scratch: Any, env: Any) -> None:
     for k in range(state.swinging.shape[1]):
         if not state.swinging[c, k]:
             continue
+        if scratch.held[k]:
+            continue
         state.swing_progress[c, k] = scratch.progress[k]
-        sole, turn = foot_along(c, k, scratch.progress[k], state)
-        store_foot(c, k, sole, turn, state)
+        store_vec3(state.foot[c, k], load_vec3(scratch.sole[k]))
+        store_quat(state.foot_rotation[c, k], load_quat(scratch.turn[k]))
         if scratch.progress[k] >= 1.0:
             state.swinging[c, k] = False
             state.stood[c, k] = 0.0
-            _, support = surface(env, sole.x, sole.z)
+            _, support = surface(env, state.foot[c, k, 0], state.foot[c, k, 2])
             state.foot_support[c, k] = support

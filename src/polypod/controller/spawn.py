@@ -9,7 +9,7 @@ from polypod.body.reach import body_within_reach
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
 from polypod.controller.feet import plan_foot, rest_offset
-from polypod.controller.settle import feet_fit
+from polypod.controller.settle import feet_fit, wish_feet
 from polypod.controller.steering import plan_pose
 from polypod.environment.table import surface
 from polypod.math.quat import store_quat
@@ -77,9 +77,11 @@ def stand_body(
     height = wished_height(
         c, 1e6, pose, plane, turn, state, command, tables, settings, env, scratch
     )
-    position = body_within_reach(c, state, tables, Vec3(pose.x, height, pose.z), turn)
+    wish_feet(c, 0.0, state, scratch)
+    wished = Vec3(pose.x, height, pose.z)
+    position = body_within_reach(c, state, tables, scratch, wished, turn)
     store_vec3(state.position[c], position)
-    return feet_fit(c, 0.0, position, turn, state, tables, scratch)
+    return feet_fit(c, position, turn, state, tables, scratch)
 
 
 def spawn(

@@ -9,12 +9,15 @@ import math
 from typing import Any, NamedTuple
 
 from polypod.compute import kernel
+from polypod.math.vec3 import Vec3
 
 PREDICTION_STEPS = 8
 # A waypoint counts as reached within this many leg lengths, so that a corner is cut, not circled.
 WAYPOINT_RADIUS = 0.5
 # Closer than this to the last waypoint the heading is kept: its direction is noise.
 HEADING_RADIUS = 0.3
+# A body that its legs hold back slows down so many times as fast as it accelerates.
+SLOWING = 3.0
 
 
 class PlanPose(NamedTuple):
@@ -124,6 +127,28 @@ def predict(
     for _ in range(PREDICTION_STEPS):
         pose = steer(pose, c, command, tables, settings, dt)
     return pose
+
+
+@kernel
+def note_pose(
+    c: int, dt: float, pose: PlanPose, before: Vec3, state: Any, command: Any, tables: Any,
+    settings: Any,
+) -> None:  # fmt: skip
+    """Keep what steering decided, and slow down where the legs did not let the body get there.
+
+    `before` is where the body was. What looks ahead must know the speed that there really is, or
+    feet are sent to where their body will not be.
+    """
+    course = pose.heading + command.travel[c]
+    x = state.position[c, 0] - before.x
+    z = state.position[c, 2] - before.z
+    real = (math.sin(course) * x + math.cos(course) * z) / dt
+    pendulum = tables.pendulum_time
+    acceleration = settings.acceleration * tables.hip_height / (pendulum * pendulum)
+    slower = min(max(pose.speed - real, 0.0), SLOWING * acceleration * dt)
+    state.turn_rate[c] = pose.turn_rate
+    state.speed[c] = max(pose.speed - slower, 0.0)
+    state.waypoint[c] = int(pose.waypoint)
 
 
 @kernel

@@ -8,6 +8,7 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.feet import plan_foot, preferred_footprint, rest_offset
 from polypod.controller.steering import PlanPose
+from polypod.environment.table import surface
 from polypod.gait.needle import (
     lift_phase,
     next_foot_to_lift,
@@ -102,6 +103,8 @@ def lift_feet(
             state.waiting[c, k] = 0.0
         else:
             state.waiting[c, k] += dt
+            height, _ = surface(env, preferred.x, preferred.z)
+            store_vec3(state.wish[c, k], Vec3(preferred.x, height, preferred.z))
 
 
 @kernel
@@ -217,13 +220,3 @@ def shift_spacing(c: int, dt: float, state: Any, command: Any, tables: Any, sett
         for axis in range(2):
             gap = command.spacing[c, k, axis] - state.spacing[c, k, axis]
             state.spacing[c, k, axis] += min(most, max(-most, gap))
-
-
-@kernel
-def store_foot(c: int, k: int, sole: Vec3, turn: Quat, state: Any) -> None:
-    """Write a foot's place and orientation into the state."""
-    store_vec3(state.foot[c, k], sole)
-    state.foot_rotation[c, k, 0] = turn.x
-    state.foot_rotation[c, k, 1] = turn.y
-    state.foot_rotation[c, k, 2] = turn.z
-    state.foot_rotation[c, k, 3] = turn.w

@@ -16,6 +16,9 @@ from polypod.math.intervals import wrap_phase
 DUTY_CYCLES = 0.5
 # How far ahead the tempo looks, leg pendulum times: about half a cycle.
 SOON = 1.5
+# A foot that has just lifted, or will soon land, moves slower than the body: the part of the reach
+# that is left to the stance.
+SWING_LAG = 0.9
 
 
 @kernel
@@ -42,7 +45,7 @@ def stance_travel_limit(c: int, state: Any, command: Any, tables: Any) -> float:
     for k in range(ik.stance_travel.shape[0]):
         travel = ik.stance_travel[k] + sideways * (ik.stance_travel_least[k] - ik.stance_travel[k])
         limit = min(limit, travel)
-    return min(limit, neighbour_limit(c, state, command, tables))
+    return min(SWING_LAG * limit, neighbour_limit(c, state, command, tables))
 
 
 @kernel
