@@ -21,6 +21,7 @@ from polypod.controller.swing import any_off_place, lift_feet, replan_feet, shif
 from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count
 from polypod.ik.skeleton import pose_joints
+from polypod.math.vec3 import load_vec3
 from polypod.world import World, note_pose
 
 PARTS = ("gait and steering", "maps, footprints and paths", "body", "inverse kinematics")
@@ -36,7 +37,7 @@ def run_part(
         if part == 0:
             shift_spacing(c, dt, state, command, tables, settings)
             restless = any_off_place(c, state, tables, settings)
-            turn[c] = advance_gait(c, dt, restless, state, command, tables, scratch)
+            turn[c] = advance_gait(c, dt, restless, state, command, tables, settings, scratch)
             moved = move_body(c, dt, state, command, tables, settings)
             pose[c, 0] = moved.x
             pose[c, 1] = moved.z
@@ -57,8 +58,9 @@ def run_part(
             height = wished_height(
                 c, dt, at, plane, lean, state, command, tables, settings, env, scratch
             )
-            note_pose(c, at, state)
+            before = load_vec3(state.position[c])
             settle_body(c, dt, at, height, state, tables, scratch)
+            note_pose(c, dt, at, before, state, command, tables, settings)
             advance_swings(c, state, scratch, env)
         if part == 3:
             pose_joints(c, state, tables, scratch)
