@@ -27,8 +27,8 @@ from polypod.errors import SettingError
 class Settings:
     """How a walk is controlled; everything a user may tune and no morphology implies."""
 
-    acceleration: float = 0.25
-    """Change of speed, hip heights per (leg pendulum time)^2; 1 is g for an upright animal."""
+    acceleration: float = 1.2
+    """Share of the speed asked for that is gained in a gait cycle."""
 
     turn_rate: float = 0.35
     """Largest turn rate, radians per leg pendulum time sqrt(leg length / g)."""
@@ -51,8 +51,8 @@ class Settings:
     search_radius: float = 0.35
     """Where a footprint is looked for around the preferred place, leg lengths."""
 
-    wider_search: float = 1.8
-    """Factor on `search_radius` for a foot that found no place."""
+    wider_search: float = 1.2
+    """Growth of `search_radius` for each gait cycle that a foot finds no place."""
 
     height_smoothing: float = 0.35
     """Time in which the body's height follows what it walks over, gait cycles."""

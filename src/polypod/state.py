@@ -34,6 +34,7 @@ class HerdTables(NamedTuple):
     hip_height: float  # mean height of the hips above the soles in stance, m
     pendulum_time: float  # sqrt(leg length / g), s
     upright: bool  # most legs stand below their hips
+    level_weight: float  # how much a foot prefers to land where the others stand
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
 
 
@@ -74,6 +75,7 @@ class HerdState(NamedTuple):
     spacing: FloatArray  # [C, K, 2] body x, z: shift of the rest place in use, m
     path: PathRow  # the swing paths, axes [C, K]
     path_launch: FloatArray  # [C, K] speed at the path's start over its mean speed
+    plane_height: FloatArray  # [C] m, world: the plane through the feet, under the body centre
     slope: FloatArray  # [C, 2] of the plane through the feet: body z (pitch), body x (roll)
     tilt: FloatArray  # [C, 2, 3] smoothed slope, its rate, and the input's low pass
     lift: FloatArray  # [C, 3] smoothed height above the feet's plane, its rate, low pass, m
@@ -130,6 +132,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "cycle_rate",
             "held",
             "duty",
+            "plane_height",
             "blend_left",
             "gait_number",
             "least_down",

@@ -48,7 +48,7 @@ def step_creature(
     # 3. Body on the plane: its default movement, refined by the feet's feedback.
     pose = move_body(c, dt, state, command, tables, settings)
     # 4. Maps, footprints and paths, for the feet that need them.
-    replan_feet(c, pose, state, command, tables, settings, env, plan_settings, scratch)
+    replan_feet(c, dt, pose, state, command, tables, settings, env, plan_settings, scratch)
     lift_feet(c, dt, turn, pose, state, command, tables, settings, env, plan_settings, scratch)
     # 5. Body: tilt and height over the feet and over what lies beneath.
     plane = feet_plane(c, state, tables)

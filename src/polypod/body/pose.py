@@ -101,6 +101,7 @@ def update_tilt(
     c: int, dt: float, plane: FeetPlane, state: Any, tables: Any, settings: Any
 ) -> None:
     """Let pitch and roll follow the slopes of the feet's plane."""
+    state.plane_height[c] = plane.height
     state.slope[c, 0] = plane.slope_forward
     state.slope[c, 1] = plane.slope_left
     share = settings.tilt_share * tables.tilt_scale

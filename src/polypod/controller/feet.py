@@ -56,6 +56,12 @@ def body_height_at(c: int, x: float, z: float, state: Any) -> float:
 
 
 @kernel
+def level_height(c: int, x: float, z: float, state: Any) -> float:
+    """Return the height of the feet's plane at a place, world."""
+    return body_height_at(c, x, z, state) - state.position[c, 1] + state.plane_height[c]
+
+
+@kernel
 def hip_at(c: int, k: int, pose: PlanPose, state: Any, tables: Any) -> Vec3:
     """Return a hip's place, world, when the body is at a predicted pose."""
     turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
@@ -116,8 +122,8 @@ def preferred_footprint(
 
 @kernel
 def plan_foot(
-    c: int, k: int, pose: PlanPose, preferred: Vec3, touchdown: float, velocity: Vec3,
-    radius: float,
+    c: int, k: int, dt: float, pose: PlanPose, preferred: Vec3, touchdown: float,
+    velocity: Vec3, launch: float, radius: float,
     state: Any, command: Any, tables: Any, settings: Any,
     env: Any, plan_settings: Any, scratch: Any,
 ) -> bool:  # fmt: skip
@@ -165,6 +171,10 @@ def plan_foot(
         math.inf,
         radius,
         others,
+        dt,
+        launch,
+        level_height(c, preferred.x, preferred.z, state),
+        tables.level_weight,
     )
     found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
     if not found:

@@ -34,6 +34,7 @@ def stand_feet(
     if first:
         under, _ = surface(env, state.position[c, 0], state.position[c, 2])
         state.position[c, 1] = under + command.body_height[c]
+        state.plane_height[c] = under
     pose = plan_pose(c, state)
     for k in range(state.swinging.shape[1]):
         offset = rest_offset(c, k, pose.heading, state, tables, settings)
@@ -43,7 +44,7 @@ def stand_feet(
         above = height + FROM_ABOVE * tables.legs.length[k]
         store_vec3(state.foot[c, k], Vec3(x, above, z))
         if not plan_foot(
-            c, k, pose, Vec3(x, height, z), 0.0, Vec3(0.0, 0.0, 0.0),
+            c, k, 0.0, pose, Vec3(x, height, z), 0.0, Vec3(0.0, 0.0, 0.0), 0.0,
             radius * tables.legs.length[k],
             state, command, tables, settings, env, plan_settings, scratch,
         ):  # fmt: skip

@@ -18,6 +18,10 @@ WAYPOINT_RADIUS = 0.5
 HEADING_RADIUS = 0.3
 # A body that its legs hold back slows down so many times as fast as it accelerates.
 SLOWING = 3.0
+# Where it gets at less than this share of its speed; less is made up for within a step.
+HELD_BACK = 0.6
+# A usual gait cycle, leg pendulum times.
+CYCLE = 2.5
 
 
 class PlanPose(NamedTuple):
@@ -51,6 +55,17 @@ def way_left(x: float, z: float, waypoint: int, c: int, command: Any) -> float:
 
 
 @kernel
+def acceleration_limit(c: int, speed: float, command: Any, tables: Any, settings: Any) -> float:
+    """Return the greatest change of speed, m/s^2: a share of the speed in a gait cycle.
+
+    A cycle is taken as what a walk's usually is, so that the limit does not depend on the gait.
+    """
+    slowest = 0.1 * tables.leg_length / tables.pendulum_time
+    most = max(abs(speed), command.speed[c], slowest)
+    return settings.acceleration * most / (CYCLE * tables.pendulum_time)
+
+
+@kernel
 def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: float) -> PlanPose:
     """Return the pose on the plane `dt` seconds later.
 
@@ -58,7 +73,7 @@ def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: 
     within bounds that scale with the animal; it stops at the last waypoint.
     """
     pendulum = tables.pendulum_time
-    acceleration = settings.acceleration * tables.hip_height / (pendulum * pendulum)
+    acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
     travel = command.travel[c]
     heading_asked = command.heading[c]
     speed_asked = command.speed[c]
@@ -143,9 +158,10 @@ def note_pose(
     x = state.position[c, 0] - before.x
     z = state.position[c, 2] - before.z
     real = (math.sin(course) * x + math.cos(course) * z) / dt
-    pendulum = tables.pendulum_time
-    acceleration = settings.acceleration * tables.hip_height / (pendulum * pendulum)
-    slower = min(max(pose.speed - real, 0.0), SLOWING * acceleration * dt)
+    acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
+    slower = 0.0
+    if real < HELD_BACK * pose.speed:
+        slower = min(pose.speed - real, SLOWING * acceleration * dt)
     state.turn_rate[c] = pose.turn_rate
     state.speed[c] = max(pose.speed - slower, 0.0)
     state.waypoint[c] = int(pose.waypoint)

@@ -26,6 +26,8 @@ FASTEST_CATCH_UP = 2.0
 IN_PLACE = 0.05
 # Speeds below this, in leg lengths a pendulum time, are standing.
 STILL = 1e-3
+# A foot that finds no place looks farther and farther, up to so many times.
+WIDEST_SEARCH = 2.6
 
 
 @kernel
@@ -90,11 +92,11 @@ def lift_feet(
         scratch.held[k] = True
         seconds = seconds_to_touchdown(c, k, state)
         radius = settings.search_radius * tables.legs.length[k]
-        if state.waiting[c, k] > 0.0:
-            radius *= settings.wider_search
+        waited = state.waiting[c, k] * state.cycle_rate[c]
+        radius *= min(1.0 + waited * settings.wider_search, WIDEST_SEARCH)
         preferred = preferred_footprint(c, k, pose, seconds, state, command, tables, settings)
         if plan_foot(
-            c, k, pose, preferred, seconds, Vec3(0.0, 0.0, 0.0), radius,
+            c, k, dt, pose, preferred, seconds, Vec3(0.0, 0.0, 0.0), 0.0, radius,
             state, command, tables, settings, env, plan_settings, scratch,
         ):  # fmt: skip
             state.swinging[c, k] = True
@@ -152,7 +154,7 @@ def swing_time_left(c: int, k: int, state: Any) -> float:
 
 @kernel
 def replan_feet(
-    c: int, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
+    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
     env: Any, plan_settings: Any, scratch: Any,
 ) -> None:  # fmt: skip
     """Plan swinging feet anew whose preferred place has moved, or whose body holds them back.
@@ -177,10 +179,12 @@ def replan_feet(
         velocity = path_velocity(row.point, row.tangent, row.fraction, row.count[0], along) * (
             rate * share
         )
+        # The new path's length is not known yet: about what is left of the old one.
+        launch = rate * share / max(1.0 - along, 0.1)
         speed = rate * share * row.length[0]
         radius = settings.search_radius * tables.legs.length[k]
         if plan_foot(
-            c, k, pose, preferred, left, velocity, radius,
+            c, k, dt, pose, preferred, left, velocity, launch, radius,
             state, command, tables, settings, env, plan_settings, scratch,
         ):  # fmt: skip
             launch = speed / max(scratch.path.length[0], 1e-12)

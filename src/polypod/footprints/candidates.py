@@ -110,13 +110,15 @@ def list_cells(
             landing = distance(effector, request.hip_touchdown)
             leaving = distance(effector, request.hip_end_of_stance)
             stretch = max(landing, leaving) - request.reach_comfort_max
-            if max(landing, leaving) > request.reach_max + cell:
+            if landing > request.reach_max + cell:
                 continue
             score = settings.weight_distance * (1.0 - away / request.search_radius)
             score += settings.weight_edge * 0.5 * min(window.edge_distance[row, column], 2.0)
             if stretch > 0.0:
                 room = max(request.reach_max - request.reach_comfort_max, stretch)
                 score -= settings.weight_reach * stretch / room
+            rise = abs(high - request.level_height) / (settings.rise * leg)
+            score -= request.level_weight * min(rise, 1.0)
             found.cell[count, 0] = row
             found.cell[count, 1] = column
             found.first_score[count] = score

@@ -6,7 +6,7 @@ from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3
-from polypod.paths.check import deepest, meets_legs, out_of_reach
+from polypod.paths.check import chords_clear, deepest, meets_legs, out_of_reach
 from polypod.paths.curve import PATH_KNOTS, PathRow
 from polypod.paths.lift import BLEND, SHORTEST, arc_start, lift_path, place_knots
 from polypod.paths.score import path_score
@@ -50,6 +50,8 @@ def try_pair(
         if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
             return NOTHING, 0.0
         if deepest(env, settings.penetration * leg, trial, lift.extra) <= 0.0:
+            if not chords_clear(env, settings.chord * leg, request, trial):
+                return NOTHING, 0.0
             return pair, quality
         blend *= 0.25
     return NOTHING, 0.0

@@ -188,15 +188,19 @@ def leg_factor(
 
 @kernel
 def reach_score(settings: PlanSettings, request: StepRequest, place: Vec3) -> float:
-    """Return 1 for comfortable reach at touchdown and at the end of stance; REJECTED beyond it."""
+    """Return 1 for comfortable reach at touchdown and at the end of stance, 0 at its edge.
+
+    REJECTED where the leg does not reach the place at touchdown. One that it would have to leave
+    early is still a place: the body waits for its feet.
+    """
     effector = place + request.effector_offset_touchdown
     landing = distance(effector, request.hip_touchdown)
-    leaving = distance(effector, request.hip_end_of_stance)
-    most = max(landing, leaving)
-    least = min(landing, leaving)
-    if most > request.reach_max or least < request.reach_min:
+    if landing > request.reach_max or landing < request.reach_min:
         return REJECTED
-    stretch = most - request.reach_comfort_max
+    leaving = distance(effector, request.hip_end_of_stance)
+    if leaving > request.reach_max or leaving < request.reach_min:
+        return 0.0
+    stretch = max(landing, leaving) - request.reach_comfort_max
     if stretch <= 0.0:
         return 1.0
     return 1.0 - stretch / max(request.reach_max - request.reach_comfort_max, stretch)
@@ -233,9 +237,9 @@ def judge_place(
     if is_forbidden(env, x, z, margin):
         return REJECTED, y
     even = edge = leave = 1.0
-    level = env.terrain_range[0] == env.terrain_range[1]
+    flat = env.terrain_range[0] == env.terrain_range[1]
     wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
-    if not level or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
+    if not flat or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
         tolerance = settings.uneven * leg + settings.uneven_foot * foot.radius
         even = even_score(env, foot, settings.toe * leg, settings.slope, tolerance, x, y, z)
         if even < 0.0:
@@ -258,15 +262,18 @@ def judge_place(
         return REJECTED, y
     away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)
     near = max(1.0 - away / max(request.search_radius, 1e-300), 0.0)
+    level = max(1.0 - abs(y - request.level_height) / (settings.rise * leg), 0.0)
     whole = (
-        settings.weight_distance
+        request.level_weight
+        + settings.weight_distance
         + settings.weight_even
         + settings.weight_edge
         + settings.weight_reach
         + settings.weight_escape
     )
     score = (
-        settings.weight_distance * near
+        request.level_weight * level
+        + settings.weight_distance * near
         + settings.weight_even * even
         + settings.weight_edge * edge
         + settings.weight_reach * reach

@@ -36,9 +36,11 @@ class PlanSettings(NamedTuple):
     edge: float = 0.07  # wanted between the foot's shape and an edge, leg lengths
     reach: float = 0.01  # kept from the leg's shortest and longest reach, share of the reach
     leg_gap: float = 0.01  # between the foot and another leg, leg lengths
+    chord: float = 0.008  # accepted of the chord between two frames, leg lengths
     penetration: float = 0.0005  # accepted by the exact check of a path, leg lengths
 
     # What can be stood on.
+    rise: float = 0.3  # height above or below the other feet that is no longer level, leg lengths
     uneven: float = 0.02  # largest departure from a plane under the foot, leg lengths,
     uneven_foot: float = 0.2  # and what a larger foot may have more, shares of its half extent
     slope: float = 1.2  # steepest plane under the foot, tangent of the angle (50 degrees)
@@ -96,6 +98,10 @@ class StepRequest(NamedTuple):
     speed_limit: float  # m/s, the most the foot may move at; infinite where there is none
     search_radius: float  # m, about the preferred place
     other_foot_count: int  # segments of other legs in the scratch
+    frame_seconds: float = 0.0  # between two frames, whose chords are checked; 0: the curve alone
+    launch: float = 0.0  # speed at the path's start over its mean speed
+    level_height: float = 0.0  # m, where the other feet stand, under the preferred place
+    level_weight: float = 0.0  # what a place at that height is worth, beside the settings' weights
 
 
 @kernel

@@ -6,17 +6,20 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.environment.table import EnvironmentTable, penetration
+from polypod.environment.table import EnvironmentTable, is_forbidden, penetration
 from polypod.footprints.settings import StepRequest
 from polypod.math.hermite import hermite
 from polypod.math.vec3 import distance, load_vec3, mix
-from polypod.paths.curve import PATH_KNOTS, PathRow
+from polypod.paths.curve import PATH_KNOTS, PROFILE_BELL, PathRow, path_point, swing_progress
 from polypod.paths.scratch import OtherLegs
 
 # The most that a bell-shaped swing exceeds its mean speed.
 PEAK_SPEED = 1.875
 # Samples on each piece of the path in the exact check.
 EXACT_SAMPLES = 3
+# Chords between frames are checked at so many parts; slower swings have more frames than needed.
+CHORD_SAMPLES = 4
+MOST_FRAMES = 24
 
 
 @kernel
@@ -89,6 +92,32 @@ def out_of_reach(request: StepRequest, margin: float, path: PathRow) -> bool:
             return True
         before = point
     return False
+
+
+@kernel
+def chords_clear(
+    env: EnvironmentTable, accepted: float, request: StepRequest, path: PathRow
+) -> bool:
+    """Return whether the straight ways between the foot's places in two frames are free.
+
+    What plays between two frames is their chord: it cuts the corners that the curve goes round.
+    `accepted` (m) is how deep a chord may cut into what is passed over; nothing forbidden is cut.
+    """
+    if request.frame_seconds <= 0.0 or request.swing_seconds <= 0.0:
+        return True
+    frames = min(math.ceil(request.swing_seconds / request.frame_seconds), MOST_FRAMES)
+    before = load_vec3(path.point[0])
+    for frame in range(1, frames + 1):
+        time = min(frame * request.frame_seconds / request.swing_seconds, 1.0)
+        along, _ = swing_progress(PROFILE_BELL, time, request.launch)
+        after = path_point(path.point, path.tangent, path.fraction, PATH_KNOTS, along)
+        for i in range(1, CHORD_SAMPLES):
+            place = mix(before, after, i / CHORD_SAMPLES)
+            depth, _ = penetration(env, place)
+            if depth > accepted or is_forbidden(env, place.x, place.z, 0.0):
+                return False
+        before = after
+    return True
 
 
 @kernel
