@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 # Measured on two cores of 2020; said to the user as a rough figure.
@@ -121,23 +122,25 @@ def telling_of_compilation() -> Iterator[None]:
         counter.finish()
 
 
-def prepare_cache() -> None:
-    """Make sure that compiled kernels can be kept somewhere; before any kernel is imported."""
+def prepare_cache() -> Path:
+    """Return the folder for compiled kernels, made writable; before any kernel is imported."""
     import tempfile
 
     from numba.core import config
 
-    from polypod.cache import kernel_cache_folder
+    # Sets where Numba is to keep them, before Numba reads it.
+    import polypod.compute  # noqa: F401
 
     settings: Any = config
-    folder = settings.CACHE_DIR
+    folder = Path(settings.CACHE_DIR)
     try:
-        kernel_cache_folder().mkdir(parents=True, exist_ok=True)
+        folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
-            return
+            return folder
     except OSError as error:
         warn(
             f"kernels cannot be kept in {folder} ({error.strerror}), so each run compiles them "
             "anew; POLYPOD_CACHE names another folder"
         )
-        settings.CACHE_DIR = tempfile.mkdtemp(prefix="polypod-kernels-")
+    settings.CACHE_DIR = tempfile.mkdtemp(prefix="polypod-kernels-")
+    return Path(settings.CACHE_DIR)

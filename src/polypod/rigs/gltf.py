@@ -83,6 +83,8 @@ class GltfDocument:
             data = source.read_bytes()
         except OSError as fault:
             raise RigError(f"{source}: cannot be read: {fault.strerror}") from None
+        except ValueError as fault:  # a name with a null character in it
+            raise RigError(f"{str(source)!r}: cannot be read: {fault}") from None
         return cls.from_bytes(data, source.name, source.parent)
 
     @classmethod
