@@ -47,7 +47,7 @@ def run_part(
             pose[c, 5] = moved.waypoint
         at = PlanPose(pose[c, 0], pose[c, 1], pose[c, 2], pose[c, 3], pose[c, 4], pose[c, 5])
         if part == 1:
-            replan_feet(c, at, state, command, tables, settings, env, plan_settings, scratch)
+            replan_feet(c, dt, at, state, command, tables, settings, env, plan_settings, scratch)
             lift_feet(
                 c, dt, turn[c], at, state, command, tables, settings, env, plan_settings, scratch
             )
