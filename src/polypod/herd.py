@@ -22,8 +22,6 @@ from polypod.state import HerdTables, JointTable, make_command, make_state
 WAYPOINT_ROOM = 256
 # A trunk on two legs cannot follow the slope between its feet: it would nod at each step.
 TWO_LEGGED_TILT = 0.25
-# One on tall legs bends them sooner than it tilts.
-UPRIGHT_TILT = 0.75
 # Weight of level places beside those of `PlanSettings`: tall legs have little to spare in height.
 LEVEL_UPRIGHT = 0.5
 LEVEL_SPRAWLING = 0.15
@@ -69,7 +67,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         leg_length=leg_length,
         hip_height=max(hip_height, 0.05 * leg_length),
         pendulum_time=math.sqrt(leg_length / GRAVITY),
-        tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else (UPRIGHT_TILT if upright else 1.0),
+        tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
         level_weight=LEVEL_UPRIGHT if upright else LEVEL_SPRAWLING,
         upright=upright,
     )

@@ -13,7 +13,10 @@ PASSES = 16
 # A target this near to the edge of the reach, in leg lengths, counts as inside.
 TOLERANCE = 2e-5
 # A swinging foot farther out of reach than this, leg lengths, waits instead of pulling the body.
-SWING_PULL = 0.015
+# One that has just lifted will soon be fast: the body waits for it. One that lands shall not drag.
+EARLY = 0.35
+EARLY_PULL = 0.06
+LATE_PULL = 0.015
 
 
 @kernel
@@ -56,7 +59,8 @@ def body_within_reach(
             foot_turn = load_quat(scratch.turn[k])
             shift = foot_shift(k, tables, sole, foot_turn, position, turn)
             size = length(shift)
-            if state.swinging[c, k] and size > SWING_PULL * tables.leg_length:
+            pull = EARLY_PULL if scratch.progress[k] < EARLY else LATE_PULL
+            if state.swinging[c, k] and size > pull * tables.leg_length:
                 continue
             if size > tolerance:
                 position = position - shift * (1.0 + 0.2 * tolerance / size)

@@ -26,6 +26,9 @@ FASTEST_CATCH_UP = 2.0
 IN_PLACE = 0.05
 # Speeds below this, in leg lengths a pendulum time, are standing.
 STILL = 1e-3
+# A swing that has gone less than this since its plan is planned anew only for so much more.
+SETTLED = 0.25
+UNSETTLED = 3.0
 # A foot that finds no place looks farther and farther, up to so many times.
 WIDEST_SEARCH = 2.6
 
@@ -168,7 +171,9 @@ def replan_feet(
         left = swing_time_left(c, k, state)
         preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)
         moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
-        if moved <= settings.replan_distance * tables.legs.length[k]:
+        # Planned anew in every frame, a foot would for ever be at the slow start of its way.
+        wanted = 1.0 if state.swing_progress[c, k] > SETTLED else UNSETTLED
+        if moved <= wanted * settings.replan_distance * tables.legs.length[k]:
             continue
         row = path_row(state.path, c, k)
         along, rate = progress_on_path(
