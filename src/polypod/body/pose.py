@@ -10,8 +10,10 @@ from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane
 from polypod.compute import kernel
-from polypod.controller.steering import PlanPose
+from polypod.controller.feet import rest_offset
+from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import swing_time_left
+from polypod.environment.table import surface
 from polypod.gait.tempo import GRAVITY
 from polypod.math.quat import Quat, load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3
@@ -97,6 +99,40 @@ def highest(
 
 
 @kernel
+def highest_ahead(
+    c: int, base: float, pose: PlanPose, turn: Quat, plane: FeetPlane,
+    state: Any, command: Any, tables: Any, settings: Any, env: Any,
+) -> float:  # fmt: skip
+    """Return how high above `base` the body may be so that its legs reach down at their next steps.
+
+    Each foot is taken to land half a cycle from now, half a stance ahead of its rest place under
+    the body as predicted: at the edge of a step down the body has sunk when its feet get there.
+    """
+    if state.cycle_rate[c] <= 0.0:
+        return 0.0
+    cycle = 1.0 / state.cycle_rate[c]
+    there = predict(pose, 0.5 * cycle, c, command, tables, settings)
+    dx = there.x - pose.x
+    dz = there.z - pose.z
+    sine = math.sin(pose.heading)
+    cosine = math.cos(pose.heading)
+    rise = plane.slope_forward * (dx * sine + dz * cosine)
+    rise += plane.slope_left * (dx * cosine - dz * sine)
+    course = there.heading + command.travel[c]
+    most = math.inf
+    for k in range(state.swinging.shape[1]):
+        half = 0.5 * there.speed * cycle * (1.0 - state.goal_extent[c, k])
+        offset = rest_offset(c, k, there.heading, state, tables, settings)
+        x = there.x + offset.x + math.sin(course) * half
+        z = there.z + offset.z + math.cos(course) * half
+        y, _ = surface(env, x, z)
+        foot_turn = load_quat(state.foot_rotation_target[c, k])
+        over = highest_over(k, Vec3(x, y, z), foot_turn, there, turn, tables)
+        most = min(most, over - base - rise)
+    return max(most, -DEEP * command.body_height[c])
+
+
+@kernel
 def update_tilt(
     c: int, dt: float, plane: FeetPlane, state: Any, tables: Any, settings: Any
 ) -> None:
@@ -142,4 +178,8 @@ def wished_height(
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
     extra = max(0.0, least - base)
     extra = min(extra, highest(c, base, pose, turn, state, command, tables))
+    extra = min(
+        extra,
+        highest_ahead(c, base, pose, turn, plane, state, command, tables, settings, env),
+    )
     return base + follow(state.lift[c], extra, seconds, dt) + bob(c, state, tables, settings)

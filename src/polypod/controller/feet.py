@@ -18,6 +18,8 @@ from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_ve
 
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
+# Where no path is found, a lower one may pass under the leg's shortest reach.
+STEP_SHARES = (1.0, 0.35)
 
 
 @kernel
@@ -149,34 +151,38 @@ def plan_foot(
     others = gather_other_legs(c, k, state, tables, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
-    request = StepRequest(
-        start,
-        velocity,
-        preferred,
-        hip_at(c, k, pose, state, tables),
-        hip,
-        hip_at(c, k, leaving, state, tables),
-        effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn),
-        tables.ik.shortest[k],
-        tables.ik.longest[k],
-        tables.ik.comfortable[k],
-        legs.length[k],
-        command.step_height[c],
-        legs.foot_half_size[k, 0],
-        legs.foot_half_size[k, 1],
-        middle.heading,
-        Vec3(landing.x, body_height_at(c, landing.x, landing.z, state), landing.z),
-        normalized(outward, Vec3(0.0, 0.0, 0.0)),
-        touchdown,
-        math.inf,
-        radius,
-        others,
-        dt,
-        launch,
-        level_height(c, preferred.x, preferred.z, state),
-        tables.level_weight,
-    )
-    found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
+    found = False
+    for share in STEP_SHARES:
+        request = StepRequest(
+            start,
+            velocity,
+            preferred,
+            hip_at(c, k, pose, state, tables),
+            hip,
+            hip_at(c, k, leaving, state, tables),
+            effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn),
+            tables.ik.shortest[k],
+            tables.ik.longest[k],
+            tables.ik.comfortable[k],
+            legs.length[k],
+            command.step_height[c] * share,
+            legs.foot_half_size[k, 0],
+            legs.foot_half_size[k, 1],
+            middle.heading,
+            Vec3(landing.x, body_height_at(c, landing.x, landing.z, state), landing.z),
+            normalized(outward, Vec3(0.0, 0.0, 0.0)),
+            touchdown,
+            math.inf,
+            radius,
+            others,
+            dt,
+            launch,
+            level_height(c, preferred.x, preferred.z, state),
+            tables.level_weight,
+        )
+        found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
+        if found:
+            break
     if not found:
         return False
     target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
