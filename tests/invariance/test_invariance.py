@@ -50,7 +50,8 @@ def walk(
     world = World(Terrain.flat(height), threads=1)
     herd = world.add(morphology, position=position, heading=heading, speed=speed)
     herd.command.travel = travel
-    herd.state.needle[:] = (herd.state.needle + shift) % 1.0
+    # A standing creature's needle is where its first foot lifts: off that tie, or rounding decides.
+    herd.state.needle[:] = (herd.state.needle + 1e-3 + shift) % 1.0
     frames = []
     for frame in range(round(SECONDS * FPS)):
         if frame == round(FPS):
