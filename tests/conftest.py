@@ -8,12 +8,10 @@ from pathlib import Path
 
 import pytest
 
-RIGS_FOLDER = Path(
-    os.environ.get("POLYPOD_RIGS", Path(__file__).parents[2] / "shared" / "rigs")
-)
+RIGS_FOLDER = Path(os.environ.get("POLYPOD_RIGS", Path(__file__).parents[2] / "shared" / "rigs"))
 
 
-@pytest.fixture()
+@pytest.fixture
 def shared_rig() -> Callable[[str], Path]:
     """Return the path of a third-party rig by its name below the rigs folder, or skip the test."""
 

@@ -72,7 +72,8 @@ def read_creature(path: Path) -> Creature:
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as fault:
         raise RigError(f"{path}: cannot be read: {fault.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as fault:
+    # Beside syntax: bytes that are no text, numbers of thousands of digits, endless brackets.
+    except (ValueError, RecursionError) as fault:
         raise RigError(f"{path}: is no TOML: {fault}") from None
     table = _Table(path.name, "", data)
     table.refuse_others(KEYS)
