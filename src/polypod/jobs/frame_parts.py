@@ -16,13 +16,13 @@ from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
 from polypod.controller.settle import advance_swings, settle_body
-from polypod.controller.steering import PlanPose, move_body
+from polypod.controller.steering import PlanPose, move_body, note_pose
 from polypod.controller.swing import any_off_place, lift_feet, replan_feet, shift_spacing
 from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count
 from polypod.ik.skeleton import pose_joints
 from polypod.math.vec3 import load_vec3
-from polypod.world import World, note_pose
+from polypod.world import World
 
 PARTS = ("gait and steering", "maps, footprints and paths", "body", "inverse kinematics")
 
@@ -59,7 +59,7 @@ def run_part(
                 c, dt, at, plane, lean, state, command, tables, settings, env, scratch
             )
             before = load_vec3(state.position[c])
-            settle_body(c, dt, at, height, state, tables, scratch)
+            settle_body(c, dt, at, height, state, tables, env, scratch)
             note_pose(c, dt, at, before, state, command, tables, settings)
             advance_swings(c, state, scratch, env)
         if part == 3:
