@@ -10,8 +10,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from polypod.errors import SettingError
-from polypod.gait.pattern import Gait
+from polypod.gait.pattern import FloatArray, Gait
 from polypod.state import HerdCommand
+
+FARTHEST = 1e5  # m, of any place asked for
+
+
+def numbers_of(name: str, value: ArrayLike, unit: str) -> FloatArray:
+    """Return what was given as an array of numbers.
+
+    Raises:
+        SettingError: it is no number, or no array of numbers.
+    """
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise SettingError(f"{name} is {value!r}; it must be numbers, in {unit}") from None
 
 
 class Asked:
@@ -29,7 +43,7 @@ class Asked:
         return self if command is None else getattr(command.arrays, self.name)
 
     def __set__(self, command: Command, value: ArrayLike) -> None:
-        numbers = np.asarray(value, dtype=np.float64)
+        numbers = numbers_of(self.name, value, self.unit)
         if not np.all((numbers >= self.low) & (numbers <= self.high)):
             raise SettingError(
                 f"{self.name} is {value!r}; "
@@ -74,10 +88,15 @@ class Command:
 
     @period.setter
     def period(self, value: ArrayLike | None) -> None:
-        numbers = np.asarray(math.nan if value is None else value, dtype=np.float64)
-        if np.any(numbers <= 1e-3) or np.any(np.isinf(numbers)):
-            raise SettingError(f"period is {value!r}; it must be above 0.001 s, or None")
-        self.arrays.period[:] = numbers
+        numbers = numbers_of("period", math.nan if value is None else value, "seconds")
+        if np.any(numbers <= 1e-3) or np.any(numbers > 1e3):
+            raise SettingError(f"period is {value!r}; it must be from 0.001 to 1000 s, or None")
+        try:
+            self.arrays.period[:] = numbers
+        except ValueError:
+            raise SettingError(
+                f"period has shape {numbers.shape}; give one number, or one for each creature"
+            ) from None
 
     @property
     def spacing(self) -> Any:
@@ -86,9 +105,9 @@ class Command:
 
     @spacing.setter
     def spacing(self, value: ArrayLike) -> None:
-        numbers = np.asarray(value, dtype=np.float64)
-        if not np.all(np.isfinite(numbers)):
-            raise SettingError(f"spacing is {value!r}; it must be finite metres, [feet, 2]")
+        numbers = numbers_of("spacing", value, "metres")
+        if not np.all(np.abs(numbers) <= 1000.0):
+            raise SettingError(f"spacing is {value!r}; it must be [feet, 2] metres up to 1000")
         try:
             self.arrays.spacing[:] = numbers
         except ValueError:
@@ -122,10 +141,11 @@ class Command:
         Raises:
             SettingError: the points are not finite pairs, or more than there is room for.
         """
-        points = np.asarray(waypoints, dtype=np.float64)
+        points = numbers_of("a path", waypoints, "metres")
         room = self.arrays.waypoints.shape[1]
-        if points.ndim != 2 or points.shape[1] != 2 or not np.all(np.isfinite(points)):
-            raise SettingError("a path must be a list of finite points x, z")
+        shaped = points.ndim == 2 and points.shape[1] == 2
+        if not shaped or not np.all(np.abs(points) <= FARTHEST):
+            raise SettingError(f"a path must be a list of points x, z within {FARTHEST:g} m")
         if not 1 <= len(points) <= room:
             raise SettingError(f"a path has {len(points)} points; it may have 1 to {room}")
         self.arrays.waypoints[creature, : len(points)] = points

@@ -50,6 +50,7 @@ class HerdState(NamedTuple):
     travelled: FloatArray  # [C] m, along the way asked for
     needle: FloatArray  # [C] phase of the gait in [0, 1)
     cycle_rate: FloatArray  # [C] cycles a second
+    hurry: FloatArray  # [C] by how much quicker it steps because legs were at their limits
     swing_start: FloatArray  # [C, K] disks in use
     swing_extent: FloatArray  # [C, K]
     goal_start: FloatArray  # [C, K] disks on their way to the destination gait
@@ -133,6 +134,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "held",
             "duty",
             "plane_height",
+            "hurry",
             "blend_left",
             "gait_number",
             "least_down",

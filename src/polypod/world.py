@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
+from polypod.command import FARTHEST, numbers_of
 from polypod.compute import kernel, over_creatures, thread_count
 from polypod.config import Settings
 from polypod.controller.settle import advance_swings, settle_body
@@ -57,7 +58,7 @@ def step_creature(
     height = wished_height(c, dt, pose, plane, lean, state, command, tables, settings, env, scratch)
     # 6. Reach: the body goes as far as its legs allow, and the swinging feet with it.
     before = load_vec3(state.position[c])
-    settle_body(c, dt, pose, height, state, tables, scratch)
+    settle_body(c, dt, pose, height, state, tables, env, scratch)
     note_pose(c, dt, pose, before, state, command, tables, settings)
     advance_swings(c, state, scratch, env)
     # 7. Inverse kinematics: a pose for every joint.
@@ -148,9 +149,12 @@ class World:
         herd.command.speed = speed
         herd.command.heading = heading
         places = rows(count, herd.tables.leg_length) if position is None else position
-        points = np.broadcast_to(np.asarray(places, dtype=np.float64), (count, 2))
-        if not np.all(np.isfinite(points)):
-            raise SettingError("a creature's position must be finite x and z")
+        given = numbers_of("a creature's position", places, "metres")
+        if given.shape not in ((2,), (count, 2)) or not np.all(np.abs(given) <= FARTHEST):
+            raise SettingError(
+                f"a creature's position must be x, z within {FARTHEST:g} m, or [{count}, 2] of them"
+            )
+        points = np.broadcast_to(given, (count, 2))
         herd.state.position[:, 0] = points[:, 0]
         herd.state.position[:, 2] = points[:, 1]
         herd.state.heading[:] = herd.command.heading
@@ -158,7 +162,8 @@ class World:
         herd.command.set_gait(chosen)
         for c in range(count):
             # A golden-angle offset, so that the creatures of a herd are not in step.
-            phase = (chosen.standing_phase + c * 0.618033988749895) % 1.0
+            # Just before a lift-off: at it, rounding would decide which frame the foot leaves in.
+            phase = (chosen.standing_phase - 1e-6 + c * 0.618033988749895) % 1.0
             set_disks(c, phase, herd.kernel_state, herd.kernel_command)
             if not self._spawn(herd, c):
                 x, z = points[c]

@@ -49,6 +49,10 @@ def hull_height(points: Any, count: int, along: float) -> float:
     for i in range(count):
         x = points[i, 0]
         y = points[i, 1]
+        if top > 0 and points[top - 1, 0] == x:
+            # Of two points over one place the higher counts.
+            y = max(y, points[top - 1, 1])
+            top -= 1
         while top >= 2 and (
             (points[top - 1, 1] - points[top - 2, 1]) * (x - points[top - 2, 0])
             <= (y - points[top - 2, 1]) * (points[top - 1, 0] - points[top - 2, 0])
@@ -62,8 +66,6 @@ def hull_height(points: Any, count: int, along: float) -> float:
     for i in range(1, top):
         if along <= points[i, 0]:
             span = points[i, 0] - points[i - 1, 0]
-            if span <= 0.0:
-                return float(max(points[i, 1], points[i - 1, 1]))
             share = (along - points[i - 1, 0]) / span
             return float(points[i - 1, 1] + share * (points[i, 1] - points[i - 1, 1]))
     return float(points[top - 1, 1])

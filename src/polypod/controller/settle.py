@@ -9,24 +9,49 @@ from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
-from polypod.environment.table import surface
+from polypod.environment.table import is_forbidden, surface
 from polypod.math.quat import Quat, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
+# A frame's chord is looked at in so many places, and is halved so often.
+CHORD_SAMPLES = 4
+SHORTER = 4
 
 
 @kernel
-def wish_feet(c: int, dt: float, state: Any, scratch: Any) -> None:
-    """Write to the scratch where every foot should be at the end of the frame."""
+def chord_is_free(before: Vec3, after: Vec3, env: Any) -> bool:
+    """Return whether the straight way of a foot in one frame crosses nothing forbidden."""
+    for i in range(1, CHORD_SAMPLES + 1):
+        place = mix(before, after, i / CHORD_SAMPLES)
+        if is_forbidden(env, place.x, place.z, 0.0):
+            return False
+    return True
+
+
+@kernel
+def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
+    """Write to the scratch where every foot should be at the end of the frame.
+
+    A foot that catches up takes frames farther apart than it was planned with: where their chord
+    cuts the corner of something forbidden that the path goes round, it goes less far.
+    """
     for k in range(state.swinging.shape[1]):
         scratch.progress[k] = 0.0
         sole = load_vec3(state.foot[c, k])
         turn = load_quat(state.foot_rotation[c, k])
         if state.swinging[c, k]:
-            scratch.progress[k] = wished_progress(c, k, dt, state)
-            sole, turn = foot_along(c, k, scratch.progress[k], state)
+            now = state.swing_progress[c, k]
+            progress = wished_progress(c, k, dt, state)
+            before = sole
+            sole, turn = foot_along(c, k, progress, state)
+            for _ in range(SHORTER):
+                if chord_is_free(before, sole, env):
+                    break
+                progress = 0.5 * (now + progress)
+                sole, turn = foot_along(c, k, progress, state)
+            scratch.progress[k] = progress
         store_vec3(scratch.sole[k], sole)
         store_quat(scratch.turn[k], turn)
 
@@ -57,8 +82,9 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
 
 @kernel
 def settle_body(
-    c: int, dt: float, pose: PlanPose, height: float, state: Any, tables: Any, scratch: Any
-) -> None:
+    c: int, dt: float, pose: PlanPose, height: float, state: Any, tables: Any, env: Any,
+    scratch: Any,
+) -> None:  # fmt: skip
     """Move the body as far toward its wished pose as its legs allow, and the swinging feet along.
 
     The body first moves least so that all soles are within reach. Where that is not enough, shares
@@ -69,7 +95,7 @@ def settle_body(
     turn_before = load_quat(state.rotation[c])
     turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
     wished = Vec3(pose.x, height, pose.z)
-    wish_feet(c, dt, state, scratch)
+    wish_feet(c, dt, state, env, scratch)
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
     heading_before = state.heading[c]
     for share in ADVANCES:

@@ -20,6 +20,11 @@ HEADING_RADIUS = 0.3
 SLOWING = 3.0
 # Where it gets at less than this share of its speed; less is made up for within a step.
 HELD_BACK = 0.6
+# Where it gets at less than this share of its speed it steps quicker, by so much more for each gait
+# cycle's time spent so, up to a limit: quicker steps are shorter.
+UNHURRIED = 0.93
+HURRY = 1.2
+MOST_HURRY = 0.5
 # A usual gait cycle, leg pendulum times.
 CYCLE = 2.5
 
@@ -160,6 +165,10 @@ def note_pose(
     real = (math.sin(course) * x + math.cos(course) * z) / dt
     acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
     slower = 0.0
+    if real < UNHURRIED * pose.speed:
+        state.hurry[c] = min(
+            state.hurry[c] + HURRY * dt / (CYCLE * tables.pendulum_time), MOST_HURRY
+        )
     if real < HELD_BACK * pose.speed:
         slower = min(pose.speed - real, SLOWING * acceleration * dt)
     state.turn_rate[c] = pose.turn_rate

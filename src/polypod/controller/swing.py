@@ -22,6 +22,8 @@ from polypod.paths.curve import swing_progress as progress_on_path
 
 # A late or replanned swing may run at most so many times as fast as its disk says.
 FASTEST_CATCH_UP = 2.0
+# Nor is a swing shorter than this share of its sector.
+SHORTEST_SWING = 0.15
 # Standing feet closer than this to their rest place stay, leg lengths.
 IN_PLACE = 0.05
 # Speeds below this, in leg lengths a pendulum time, are standing.
@@ -138,8 +140,9 @@ def swing_pace(c: int, k: int, state: Any) -> float:
     """Return the progress a second that a foot's disk asks of its present swing."""
     start = state.swing_start[c, k]
     begun = swing_progress(state.lift_phase[c, k], start, state.swing_extent[c, k])
-    span = (1.0 - max(begun, 0.0)) * state.swing_extent[c, k]
-    pace: float = state.cycle_rate[c] / max(span, 1e-3)
+    # However late it was planned, it takes a fair part of a swing's time.
+    span = max(1.0 - max(begun, 0.0), SHORTEST_SWING) * state.swing_extent[c, k]
+    pace: float = state.cycle_rate[c] / span
     return pace
 
 

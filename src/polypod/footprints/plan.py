@@ -7,6 +7,7 @@ import math
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
 from polypod.environment.table import EnvironmentTable
+from polypod.footprints.beside import is_open, try_beside
 from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
 from polypod.footprints.pair import NOTHING, try_pair
 from polypod.footprints.place import judge_place
@@ -197,6 +198,11 @@ def plan_step(
             if unhindered or settings.first_pair:
                 scratch.tally[TALLY_DIRECT] = 1
                 return True, best
+    if best < 0.0 and is_open(env, request, near):
+        best = try_beside(env, settings, request, legs, scratch, path)
+        if best >= 0.0:
+            scratch.tally[TALLY_DIRECT] = 1
+            return True, best
     window = scratch.window
     fill_window(env, settings, request, window)
     close_cells(env, settings, request, legs, window, scratch.grid)

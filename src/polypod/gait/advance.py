@@ -19,6 +19,8 @@ SOON = 1.5
 # A foot that has just lifted, or will soon land, moves slower than the body: the part of the reach
 # that is left to the stance.
 SWING_LAG = 0.9
+# Cycles in which a hurry dies away once legs have room again.
+HURRY_CYCLES = 3.0
 
 
 @kernel
@@ -115,8 +117,12 @@ def advance_gait(
     if not wishes_to_step and in_swing == 0:
         state.cycle_rate[c] = 0.0
         return 0.0
-    state.cycle_rate[c] = 1.0 / aim.period
-    needle = turn_needle(state.needle[c], dt, aim.period)
+    period = aim.period
+    if math.isnan(command.period[c]):
+        period /= 1.0 + state.hurry[c]
+    state.cycle_rate[c] = 1.0 / period
+    needle = turn_needle(state.needle[c], dt, period)
+    state.hurry[c] *= math.exp(-needle.turn / HURRY_CYCLES)
     state.needle[c] = needle.needle
     state.duty[c] += (aim.duty - state.duty[c]) * (1.0 - math.exp(-needle.turn / DUTY_CYCLES))
     if state.gait_number[c] != command.gait_number[c]:

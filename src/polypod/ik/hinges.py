@@ -15,6 +15,9 @@ import numpy as np
 from polypod.morphology.types import BoolArray, FloatArray, LegTable
 
 NOISE = math.radians(7.0)
+# A leg stretched out at rest shows no fold: any one joint's bend is noise up to more than that.
+STRETCHED = 0.98
+NOISE_STRETCHED = math.radians(20.0)
 # An erect leg's small bend in the frontal plane is a splayed stance, not the knee's hinge.
 SPLAY = math.radians(25.0)
 # A straight joint's share of the fold: of its bent neighbours' mean, or all alike where none is.
@@ -115,13 +118,15 @@ def find_hinges(legs: LegTable, leg: int) -> Hinges:
     axis = np.zeros((count, 3))
     bend = np.zeros(count)
     weight = np.zeros(count)
+    reach = float(np.linalg.norm(bones.sum(axis=0)))
+    noise = NOISE if reach < STRETCHED * float(sizes.sum()) else NOISE_STRETCHED
     for j in range(1, count):
         across = np.cross(directions[j - 1], directions[j])
         bend[j] = math.atan2(
             float(np.linalg.norm(across)), float(directions[j - 1] @ directions[j])
         )
         axis[j] = unit(across, axis[j])
-        if bend[j] >= NOISE and not is_splay(legs, leg, axis[j], bend[j]):
+        if bend[j] >= noise and not is_splay(legs, leg, axis[j], bend[j]):
             weight[j] = math.sin(bend[j]) * min(sizes[j - 1], sizes[j])
     real = weight > 0.0
     normal = _mean_normal(axis, weight) if real.any() else guessed_axis(legs, leg, 1)

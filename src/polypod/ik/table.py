@@ -14,6 +14,7 @@ from polypod.ik.types import IkTable
 from polypod.math.quat import rotate
 from polypod.math.vec3 import Vec3, load_vec3
 from polypod.morphology.types import FloatArray, LegTable
+from polypod.reference import by_reference
 
 __all__ = ["IkTable", "build_ik_table", "guesses"]
 
@@ -47,10 +48,12 @@ def build_ik_table(legs: LegTable) -> IkTable:
     radians, lengths in metres, body frame.
     """
     ik = _empty_table(legs)
+    # The same arrays, as the simulation's kernels take them: compiled once for both.
+    kernel_ik = by_reference(ik)
     for leg in range(len(legs.joint_count)):
         _fill_leg(ik, legs, leg)
-        _fill_stance(ik, leg)
-        _fill_travel(ik, leg)
+        _fill_stance(ik, kernel_ik, leg)
+        _fill_travel(ik, kernel_ik, leg)
     return ik
 
 
@@ -234,7 +237,7 @@ def _fill_plane(ik: IkTable, legs: LegTable, leg: int) -> None:
     ik.normal_stance[leg] = normal
 
 
-def _fill_stance(ik: IkTable, leg: int) -> None:
+def _fill_stance(ik: IkTable, kernel_ik: IkTable, leg: int) -> None:
     """Fill in the stance's pose, about which the hip's limits are centred."""
     offset = ik.effector_stance[leg] - ik.hip_rest[leg]
     size = float(np.linalg.norm(offset))
@@ -242,18 +245,18 @@ def _fill_stance(ik: IkTable, leg: int) -> None:
         offset, size = np.array([0.0, -1.0, 0.0]), 1.0
     direction = Vec3(*(offset / size))
     reach = min(max(size, float(ik.shortest[leg])), float(ik.longest[leg]))
-    fold, chord = fold_for_reach(ik, leg, reach)
-    frame = plane_frame(direction, plane_normal(ik, leg, direction * reach))
+    fold, chord = fold_for_reach(kernel_ik, leg, reach)
+    frame = plane_frame(direction, plane_normal(kernel_ik, leg, direction * reach))
     ik.fold_stance[leg] = fold
-    ik.hip_stance[leg] = hip_for(ik, leg, chord, direction)
+    ik.hip_stance[leg] = hip_for(kernel_ik, leg, chord, direction)
     ik.limb_axis[leg] = direction
     ik.flexion_axis[leg] = rotate(frame, Vec3(0.0, 1.0, 0.0))
 
 
-def _fill_travel(ik: IkTable, leg: int) -> None:
+def _fill_travel(ik: IkTable, kernel_ik: IkTable, leg: int) -> None:
     """Fill in how far the effector may travel straight at the stance's height."""
     stance = load_vec3(ik.effector_stance[leg])
-    centre = stance + reach_shift(ik, leg, stance)
+    centre = stance + reach_shift(kernel_ik, leg, stance)
     comfortable = float(ik.comfortable[leg])
     offset = np.subtract(centre, ik.hip_rest[leg])
     offset *= min(1.0, comfortable / max(float(np.linalg.norm(offset)), 1e-300))
@@ -263,19 +266,21 @@ def _fill_travel(ik: IkTable, leg: int) -> None:
         angle = math.pi * i / TRAVEL_DIRECTIONS
         along = np.array([math.sin(angle), 0.0, math.cos(angle)])
         half = 0.0
-        while _both_ends_reach(ik, leg, offset, along * (half + step)):
+        while _both_ends_reach(ik, kernel_ik, leg, offset, along * (half + step)):
             half += step
         travel.append(2.0 * half)
     ik.stance_travel[leg] = travel[0]
     ik.stance_travel_least[leg] = min(travel)
 
 
-def _both_ends_reach(ik: IkTable, leg: int, centre: FloatArray, half: FloatArray) -> bool:
+def _both_ends_reach(
+    ik: IkTable, kernel_ik: IkTable, leg: int, centre: FloatArray, half: FloatArray
+) -> bool:
     """Say whether both ends of a straight travel about an offset from the hip are within reach."""
     for offset in (centre + half, centre - half):
         size = float(np.linalg.norm(offset))
         if not ik.shortest[leg] <= size <= STANCE_END * ik.longest[leg]:
             return False
-        if direction_strain(ik, leg, Vec3(*offset.tolist())) > 1.0:
+        if direction_strain(kernel_ik, leg, Vec3(*offset.tolist())) > 1.0:
             return False
     return True
