@@ -25,6 +25,8 @@ TWO_LEGGED_TILT = 0.25
 # Weight of level places beside those of `PlanSettings`: tall legs have little to spare in height.
 LEVEL_UPRIGHT = 0.5
 LEVEL_SPRAWLING = 0.15
+# A sprawler's feet go round what its body passes: the part of its track that is kept free.
+SPRAWLING_TRACK = 0.5
 
 
 class Scratch(NamedTuple):
@@ -58,6 +60,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
     driven[legs.foot_joint[legs.foot_joint >= 0]] = True
     leg_length = float(np.mean(legs.length))
     upright = bool(np.mean(legs.upright) > 0.5)
+    track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
     return HerdTables(
         legs=legs,
@@ -68,6 +71,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         hip_height=max(hip_height, 0.05 * leg_length),
         pendulum_time=math.sqrt(leg_length / GRAVITY),
         tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
+        track=track * (1.0 if upright else SPRAWLING_TRACK),
         level_weight=LEVEL_UPRIGHT if upright else LEVEL_SPRAWLING,
         upright=upright,
     )

@@ -34,6 +34,7 @@ class HerdTables(NamedTuple):
     hip_height: float  # mean height of the hips above the soles in stance, m
     pendulum_time: float  # sqrt(leg length / g), s
     upright: bool  # most legs stand below their hips
+    track: float  # m, half the width of the way that the feet take
     level_weight: float  # how much a foot prefers to land where the others stand
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
 
@@ -50,6 +51,7 @@ class HerdState(NamedTuple):
     travelled: FloatArray  # [C] m, along the way asked for
     needle: FloatArray  # [C] phase of the gait in [0, 1)
     cycle_rate: FloatArray  # [C] cycles a second
+    detour: FloatArray  # [C] rad from the heading asked for, to pass what is forbidden
     hurry: FloatArray  # [C] by how much quicker it steps because legs were at their limits
     swing_start: FloatArray  # [C, K] disks in use
     swing_extent: FloatArray  # [C, K]
@@ -135,6 +137,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "duty",
             "plane_height",
             "hurry",
+            "detour",
             "blend_left",
             "gait_number",
             "least_down",

@@ -47,7 +47,7 @@ def step_creature(
     restless = any_off_place(c, state, tables, settings)
     turn = advance_gait(c, dt, restless, state, command, tables, settings, scratch)
     # 3. Body on the plane: its default movement, refined by the feet's feedback.
-    pose = move_body(c, dt, state, command, tables, settings)
+    pose = move_body(c, dt, state, command, tables, settings, env)
     # 4. Maps, footprints and paths, for the feet that need them.
     replan_feet(c, dt, pose, state, command, tables, settings, env, plan_settings, scratch)
     lift_feet(c, dt, turn, pose, state, command, tables, settings, env, plan_settings, scratch)
@@ -60,7 +60,7 @@ def step_creature(
     before = load_vec3(state.position[c])
     settle_body(c, dt, pose, height, state, tables, env, scratch)
     note_pose(c, dt, pose, before, state, command, tables, settings)
-    advance_swings(c, state, scratch, env)
+    advance_swings(c, dt, state, scratch, env)
     # 7. Inverse kinematics: a pose for every joint.
     pose_joints(c, state, tables, scratch)
 

@@ -112,13 +112,15 @@ def settle_body(
 
 
 @kernel
-def advance_swings(c: int, state: Any, scratch: Any, env: Any) -> None:
+def advance_swings(c: int, dt: float, state: Any, scratch: Any, env: Any) -> None:
     """Carry the swinging feet as far as `settle_body` found, and land those that arrived."""
     for k in range(state.swinging.shape[1]):
         if not state.swinging[c, k]:
             continue
         if scratch.held[k]:
+            state.waiting[c, k] += dt
             continue
+        state.waiting[c, k] = 0.0
         state.swing_progress[c, k] = scratch.progress[k]
         store_vec3(state.foot[c, k], load_vec3(scratch.sole[k]))
         store_quat(state.foot_rotation[c, k], load_quat(scratch.turn[k]))

@@ -9,6 +9,7 @@ import math
 from typing import Any, NamedTuple
 
 from polypod.compute import kernel
+from polypod.environment.table import is_forbidden
 from polypod.math.vec3 import Vec3
 
 PREDICTION_STEPS = 8
@@ -16,6 +17,14 @@ PREDICTION_STEPS = 8
 WAYPOINT_RADIUS = 0.5
 # Closer than this to the last waypoint the heading is kept: its direction is noise.
 HEADING_RADIUS = 0.3
+# What lies ahead is looked at so many leg lengths far, in so many places, along a fan of courses;
+# a course costs by what blocks it (2 for all of it), by its angle and by how new it is, per rad.
+LOOK = 2.5
+LOOK_SAMPLES = 8
+LOOK_SIDES = 6
+LOOK_ANGLE = 0.22
+DETOUR_COST = 0.35
+CHANGE_COST = 0.15
 # A body that its legs hold back slows down so many times as fast as it accelerates.
 SLOWING = 3.0
 # Where it gets at less than this share of its speed; less is made up for within a step.
@@ -38,6 +47,7 @@ class PlanPose(NamedTuple):
     turn_rate: float  # rad/s
     speed: float  # m/s along the direction of travel
     waypoint: float  # index of the waypoint being approached
+    detour: float  # rad by which the heading asked for is left aside, to pass what is forbidden
 
 
 @kernel
@@ -71,6 +81,46 @@ def acceleration_limit(c: int, speed: float, command: Any, tables: Any, settings
 
 
 @kernel
+def way_free(x: float, z: float, course: float, margin: float, reach: float, env: Any) -> float:
+    """Return the share of a straight way of `reach` metres that no forbidden thing narrows."""
+    for i in range(1, LOOK_SAMPLES + 1):
+        along = reach * i / LOOK_SAMPLES
+        if is_forbidden(env, x + math.sin(course) * along, z + math.cos(course) * along, margin):
+            return (i - 1.0) / LOOK_SAMPLES
+    return 1.0
+
+
+@kernel
+def detour(c: int, state: Any, command: Any, tables: Any, env: Any) -> float:
+    """Return the angle from the heading asked for at which feet can pass what is forbidden, rad.
+
+    Of a fan of courses the freest near to the wished one is taken, by a plain look at the way that
+    the feet take, or the body of a sprawler, whose feet find their own ways beside it.
+    """
+    if env.bucket_shape[0] == 0:
+        return 0.0
+    pose = plan_pose(c, state)
+    course = command.heading[c]
+    if command.waypoint_count[c] > 0:
+        to_x = command.waypoints[c, state.waypoint[c], 0] - pose.x
+        to_z = command.waypoints[c, state.waypoint[c], 1] - pose.z
+        course = math.atan2(to_x, to_z) - command.travel[c]
+    reach = LOOK * tables.leg_length
+    best = 0.0
+    least = math.inf
+    for i in range(2 * LOOK_SIDES + 1):
+        angle = LOOK_ANGLE * ((i + 1) // 2) * (1.0 if i % 2 == 1 else -1.0)
+        direction = course + command.travel[c] + angle
+        blocked = 1.0 - way_free(pose.x, pose.z, direction, tables.track, reach, env)
+        change = abs(angle - state.detour[c])
+        cost = 2.0 * blocked + DETOUR_COST * abs(angle) + CHANGE_COST * change
+        if cost < least:
+            least = cost
+            best = angle
+    return best
+
+
+@kernel
 def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: float) -> PlanPose:
     """Return the pose on the plane `dt` seconds later.
 
@@ -99,7 +149,7 @@ def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: 
         if waypoint < last:
             left = way_left(pose.x, pose.z, waypoint, c, command)
         speed_asked = min(speed_asked, math.sqrt(acceleration * left), left / dt)
-    error = wrapped(heading_asked - pose.heading)
+    error = wrapped(heading_asked + pose.detour - pose.heading)
     # Who must turn far turns first: full speed would circle round the place it is to go to.
     speed_asked *= min(1.0, max(0.1, 1.4 * math.cos(error)))
     response = settings.turn_response * pendulum
@@ -120,6 +170,7 @@ def steer(pose: PlanPose, c: int, command: Any, tables: Any, settings: Any, dt: 
         turn_rate,
         speed,
         float(waypoint),
+        pose.detour,
     )
 
 
@@ -133,6 +184,7 @@ def plan_pose(c: int, state: Any) -> PlanPose:
         state.turn_rate[c],
         state.speed[c],
         float(state.waypoint[c]),
+        state.detour[c],
     )
 
 
@@ -198,10 +250,19 @@ def feedback(c: int, state: Any, tables: Any, settings: Any) -> tuple[float, flo
 
 
 @kernel
-def move_body(c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any) -> PlanPose:
+def move_body(
+    c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any, env: Any
+) -> PlanPose:
     """Return the pose on the plane at the end of the frame: steered, and refined by the feet."""
+    state.detour[c] = detour(c, state, command, tables, env)
     pose = steer(plan_pose(c, state), c, command, tables, settings, dt)
     x, z = feedback(c, state, tables, settings)
     return PlanPose(
-        pose.x + x * dt, pose.z + z * dt, pose.heading, pose.turn_rate, pose.speed, pose.waypoint
+        pose.x + x * dt,
+        pose.z + z * dt,
+        pose.heading,
+        pose.turn_rate,
+        pose.speed,
+        pose.waypoint,
+        pose.detour,
     )

@@ -37,6 +37,8 @@ STILL = 1e-3
 # A swing that has gone less than this since its plan is planned anew only for so much more.
 SETTLED = 0.25
 UNSETTLED = 3.0
+# So does one whose leg could not follow its way for so many cycles.
+HELD_UP = 0.2
 # A foot that finds no place looks farther and farther, up to so many times.
 WIDEST_SEARCH = 2.6
 
@@ -234,7 +236,8 @@ def replan_feet(
         moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
         # Planned anew in every frame, a foot would for ever be at the slow start of its way.
         wanted = 1.0 if state.swing_progress[c, k] > SETTLED else UNSETTLED
-        if moved <= wanted * settings.replan_distance * tables.legs.length[k]:
+        held_up = state.waiting[c, k] * state.cycle_rate[c] > HELD_UP
+        if moved <= wanted * settings.replan_distance * tables.legs.length[k] and not held_up:
             continue
         row = path_row(state.path, c, k)
         along, rate = progress_on_path(
@@ -255,6 +258,7 @@ def replan_feet(
         ):  # fmt: skip
             launch = speed / max(scratch.path.length[0], 1e-12)
             begin_swing(c, k, state.needle[c], launch, state, scratch)
+            state.waiting[c, k] = 0.0
 
 
 @kernel
