@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polypod.environment.table import CYLINDER, SPHERE, EnvironmentTable
+from polypod.environment.shapes import CYLINDER, SPHERE
+from polypod.environment.table import EnvironmentTable
 from polypod.report.arrays import FloatArray, conjugate_all, rotate_all
 
 BoolArray = NDArray[np.bool_]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import colorsys
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from polypod.environment.table import SPHERE, EnvironmentTable
+from polypod.environment.shapes import SPHERE
+from polypod.environment.table import EnvironmentTable
 from polypod.report.arrays import FloatArray, conjugate_all, rotate_all, runs_of
 from polypod.report.ground import terrain_height
 from polypod.report.raster import Scene
@@ -26,6 +28,11 @@ ROUND = 20  # sides of what is round
 FOOT_COLOURS = (
     "#d1495b", "#00798c", "#edae49", "#66a182", "#6c4ab6", "#2e86de", "#e17c05", "#3d5a80",
     "#b5179e", "#588157",
+)  # fmt: skip
+# Of a box whose corners are counted x slowest, z fastest; counter-clockwise from outside.
+BOX_TRIANGLES = np.array(
+    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+     [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]], np.int64
 )  # fmt: skip
 
 
@@ -218,3 +225,43 @@ def _add_ribbon(
         ]
     )
     scene.add(positions, triangles, colour, Scene.PLAIN)
+
+
+def add_bones(scene: Scene, recording: Recording, frame: int, colour: FloatArray) -> None:
+    """Add a creature that has no surface: its legs and spine as sticks, its trunk as a box."""
+    legs, body = recording.morphology.legs, recording.morphology.body
+    half = np.array([body.half_size[0], body.half_size[1], body.half_size[2]])
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], np.float64)
+    box = recording.body_position[frame] + rotate_all(
+        recording.body_rotation[frame], body.box_centre + half * corners
+    )
+    scene.add(box, BOX_TRIANGLES, colour)
+    for leg, count in enumerate(legs.joint_count):
+        chain = recording.joint_position[frame, legs.joint[leg, :count]]
+        chain = np.concatenate([chain, recording.foot_position[frame, leg][None]])
+        for start, end in pairwise(chain):
+            _add_stick(scene, start, end, 0.035 * float(legs.length[leg]), colour)
+
+
+def _add_stick(
+    scene: Scene, start: FloatArray, end: FloatArray, radius: float, colour: FloatArray
+) -> None:
+    """Add a six-sided stick between two points, pointed at its end."""
+    way = end - start
+    size = float(np.linalg.norm(way))
+    if size < 1e-12:
+        return
+    least = np.zeros(3)
+    least[int(np.abs(way).argmin())] = 1.0
+    u = np.cross(way / size, least)
+    u /= np.linalg.norm(u)
+    v = np.cross(way / size, u)
+    angle = 2.0 * math.pi * np.arange(6) / 6.0
+    ring = np.cos(angle)[:, None] * u + np.sin(angle)[:, None] * v
+    positions = np.concatenate([start + radius * ring, end + 0.5 * radius * ring])
+    a = np.arange(6)
+    b = (a + 1) % 6
+    triangles = np.concatenate(
+        [np.stack([a, b, a + 6], axis=1), np.stack([b, b + 6, a + 6], axis=1)]
+    )
+    scene.add(positions, triangles, colour)
