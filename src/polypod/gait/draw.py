@@ -129,9 +129,12 @@ def _draw_footfalls(axes: Any, gait: Gait, names: Sequence[str]) -> None:
 def _draw_feet_down(axes: Any, gait: Gait) -> None:
     from matplotlib.ticker import MaxNLocator
 
-    phase = np.linspace(0.0, 2.0, 1601)
-    axes.step(phase, gait.feet_down(phase), where="mid", color=STANCE_COLOUR)
-    axes.set_ylim(-0.3, gait.maximum_feet_down + 0.7)
+    length, down = gait.support()
+    first = min(gait.swing_start.min(), gait.touchdown.min())
+    # Three cycles from the one before, of which two are in view.
+    edges = first - 1.0 + np.concatenate([[0.0], np.cumsum(np.tile(length, 3))])
+    axes.stairs(np.tile(down, 3), edges, baseline=None, color=STANCE_COLOUR)
+    axes.set_ylim(-0.3, gait.maximum_feet_down * 1.08 + 0.3)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
     axes.set_ylabel("feet down", fontsize=7)
     axes.set_xlabel("cycles", fontsize=8)

@@ -4,9 +4,9 @@ A creature's rows are arrays [K]: `start` and `extent` are the disks its feet go
 and `stood` what they do. In every step a controller
 
 1. turns the needle, in `step_count` equal parts if it turns far,
-2. lands feet (`land_feet`) before it lifts any, so that feet can change places,
-3. gives the standing feet their new disks (`transition.adopt_disks`) if a transition is under way,
-4. lifts `next_foot_to_lift` until there is none, each at its `lift_phase`.
+2. gives the standing feet their new disks (`transition.adopt_disks`) if a transition is under way,
+3. lifts `next_foot_to_lift` until there is none, each at its `lift_phase`,
+4. carries swinging feet along by `progress_since_lift` and lands them when it is 1.
 
 A foot swings from the phase at which it really left (`lift_phase`) to the end of its sector, so
 progress follows the disk, and neither a changed tempo nor a late lift leaves a foot behind.
@@ -21,8 +21,6 @@ from polypod.compute import kernel
 from polypod.gait.pattern import SAME_MOMENT, BoolArray, FloatArray
 from polypod.math.intervals import sector_progress, wrap_phase
 
-# A foot that could not lift on time may still do so in this first share of its sector.
-LATE_LIFT_WINDOW = 0.5
 # A foot that just landed stands for at least this share of its disk's stance before it lifts again.
 LEAST_STANCE = 0.5
 # The needle moves by at most this share of the shortest swing or stance in one part of a step.
@@ -49,7 +47,7 @@ def step_count(turn: float, extent: FloatArray) -> int:
     """Return into how many equal parts a turn must be divided so that no foot's event is missed.
 
     Fast small creatures turn through whole sectors between two frames of film. At most MOST_PARTS:
-    beyond it events merge, which `land_feet` and `next_foot_to_lift` survive.
+    beyond it a foot may miss a swing, and goes with the next.
     """
     shortest = 1.0
     for k in range(extent.shape[0]):
@@ -65,12 +63,6 @@ def swing_progress(needle: float, start: float, extent: float) -> float:
 
 
 @kernel
-def stance_progress(needle: float, start: float, extent: float) -> float:
-    """Return the progress of a stance by its disk, in [0, 1), or -1 where the disk says swing."""
-    return sector_progress(needle, wrap_phase(start + extent), 1.0 - extent)
-
-
-@kernel
 def progress_since_lift(needle: float, lift_phase: float, start: float, extent: float) -> float:
     """Return the progress, in [0, 1], of a swing that began at `lift_phase` inside its sector.
 
@@ -83,42 +75,6 @@ def progress_since_lift(needle: float, lift_phase: float, start: float, extent: 
     if begun >= extent:  # by rounding: a lift at the very edge of the sector
         begun = 0.0
     return max(inside - begun, 0.0) / (extent - begun)
-
-
-@kernel
-def land_feet(
-    needle: float,
-    turn: float,
-    start: FloatArray,
-    extent: FloatArray,
-    in_swing: BoolArray,
-    stood: FloatArray,
-    landed: BoolArray,
-) -> int:
-    """Put down the feet whose sectors the needle has left; return how many.
-
-    Args:
-        needle: the needle after its turn.
-        turn: how far it turned, cycles.
-        start: [K] start of the sector each foot swings by.
-        extent: [K] its extent.
-        in_swing: [K] feet in the air; written.
-        stood: [K] cycles for which each foot has stood; written.
-        landed: [K] feet put down by this call; written.
-    """
-    count = 0
-    for k in range(start.shape[0]):
-        inside = wrap_phase(needle - start[k])
-        since_end = inside - extent[k] if inside >= extent[k] else inside + 1.0 - extent[k]
-        # Inside again after a turn longer than the stance: it landed in between.
-        landed[k] = in_swing[k] and (inside >= extent[k] or turn >= since_end)
-        if landed[k]:
-            in_swing[k] = False
-            stood[k] = since_end
-            count += 1
-        elif not in_swing[k]:
-            stood[k] += turn
-    return count
 
 
 @kernel

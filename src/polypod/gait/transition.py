@@ -13,8 +13,7 @@ from polypod.compute import kernel
 from polypod.gait.pattern import SAME_MOMENT, BoolArray, FloatArray
 from polypod.math.intervals import wrap_phase
 
-# Real switches of gait take one to two strides.
-TRANSITION_CYCLES = 1.5
+# Places round the circle at which `align_cycle` tries a gait.
 ALIGNMENTS = 64
 
 
@@ -23,19 +22,6 @@ class Disk(NamedTuple):
 
     start: float
     extent: float
-
-
-@kernel
-def disk_at_duty(
-    start: float, extent: float, lag_per_duty: float, gait_duty: float, duty: float
-) -> Disk:
-    """Return a foot's disk of a gait with mean duty `gait_duty`, at another mean duty.
-
-    The touchdown stays (but for the lag), the lift-off moves: see `Gait.with_duty`.
-    """
-    foot_duty = (1.0 - extent) * (duty / gait_duty)
-    touchdown = start + extent + lag_per_duty * (duty - gait_duty)
-    return Disk(wrap_phase(touchdown + foot_duty), 1.0 - foot_duty)
 
 
 @kernel
