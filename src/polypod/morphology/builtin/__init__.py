@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from polypod.errors import RigError, choices
-from polypod.morphology.builtin import spider
+from polypod.morphology.builtin import ant, spider, wolf
 from polypod.morphology.builtin.sculpture import BuiltIn
 
 _BUILDERS: dict[str, Callable[[], BuiltIn]] = {
     "spider": spider.build,
+    "ant": ant.build,
+    "wolf": wolf.build,
 }
 NAMES = tuple(_BUILDERS)
 

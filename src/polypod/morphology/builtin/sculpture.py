@@ -1,17 +1,17 @@
-"""Puts patches on a skeleton: joints, weights, colours, and a twin on the right of all on the left.
+"""Puts patches on a skeleton: joints, weights, colours, and on the right a twin of all on the left.
 
-A joint whose name begins with "Left" gets its "Right" twin at once, and so does every patch bound to
-such a joint: creatures describe their middle and their left, and are mirror symmetric.
+A joint whose name begins with "Left" gets its "Right" twin at once, and so does every patch bound
+to such a joint: creatures describe their middle and their left, and are mirror symmetric.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from polypod.morphology.builtin.shapes import FloatArray, IntArray, Patch, mirrored
 from polypod.rigs.author import Joint, Material, SkinnedSurface, author_glb
@@ -74,7 +74,7 @@ class Sculpture:
     def chain(
         self, names: Sequence[str], points: ArrayLike, parent: str | None = None, marker: str = ""
     ) -> None:
-        """Add joints, each the parent of the next; `marker` names a plain node at the last point."""
+        """Add joints, each the parent of the next; `marker`: a plain node at the last point."""
         places = np.asarray(points, dtype=np.float64)
         for name, place in zip(names, places, strict=False):
             self.joint(name, place, parent)
@@ -127,7 +127,9 @@ class Sculpture:
         glb = author_glb(title, self._joints, surfaces, materials)
         return BuiltIn(self.name, glb, tuple(every_leg), tuple(spine))
 
-    def _append(self, name: str, place: FloatArray, parent: str | None, skinned: bool) -> None:
+    def _append(
+        self, name: str, place: NDArray[np.floating[Any]], parent: str | None, skinned: bool
+    ) -> None:
         parent_row = -1 if parent is None else self._row[parent]
         self._row[name] = len(self._joints)
         x, y, z = (float(value) for value in place)

@@ -1,7 +1,7 @@
 """Surfaces swept along curves: the few shapes all built-in creatures are made of.
 
 A `Patch` remembers for each vertex where on its axis it sits, so that weights and colours can be
-given along the axis and not vertex by vertex. World frame at rest: metres, +Y up, creature faces +Z.
+given along the axis and not vertex by vertex. World frame at rest: metres, +Y up, facing +Z.
 """
 
 from __future__ import annotations
@@ -121,6 +121,45 @@ def body(
     smooth = monotone_curve(place, curves, at)
     radii = np.maximum(smooth[:, 3:], 0.0) ** (1.0 / power)
     return sweep(smooth[:, :3], radii, round_ring(sides, exponent), side, at)
+
+
+def plated(
+    keys: Sequence[Sequence[float]],
+    edges: Sequence[float],
+    rings: int,
+    sides: int = 12,
+    side: ArrayLike = LEFT,
+    lip: float = 0.06,
+    exponent: float = 2.0,
+) -> Patch:
+    """Return a domed body whose skin is cut into plates, each overlapping the one before it.
+
+    Args:
+        keys: as for `body`, closed to a point at both ends.
+        edges: places in (0, 1), ascending, where a plate begins that overlaps the one before.
+        rings: sections of each plate.
+        sides: vertices around.
+        side: the direction of "across".
+        lip: how far a plate's edge stands out, as a part of the radius there.
+        exponent: of the superellipse.
+    """
+    table = np.array([_widths(key) for key in keys])
+    place = _arc_length(table[:, :3])
+    place = place / place[-1]
+    # Domes need their rings close together at the ends, and so the plates are even in angle.
+    angle = np.arccos(1.0 - 2.0 * np.array([0.0, *edges, 1.0]))
+    at, rise = [], []
+    for index in range(len(edges) + 1):
+        part = np.linspace(0.0, 1.0, rings + 1)
+        at.append(angle[index] + part * (angle[index + 1] - angle[index]))
+        at[-1][-1] -= 0.15 * (at[-1][-1] - at[-1][-2]) * (index < len(edges))
+        rise.append(lip * (1.0 - part) * (index > 0))
+    places = 0.5 - 0.5 * np.cos(np.concatenate(at))
+    curves = np.concatenate([table[:, :3], table[:, 3:] ** 2], axis=1)
+    smooth = monotone_curve(place, curves, places)
+    radii = np.sqrt(np.maximum(smooth[:, 3:], 0.0)) * (1.0 + np.concatenate(rise))[:, None]
+    radii[[0, -1]] = 0.0
+    return sweep(smooth[:, :3], radii, round_ring(sides, exponent), side, places)
 
 
 def ellipsoid(

@@ -22,7 +22,7 @@ HIP_HEIGHT = 0.25
 SEGMENTS = (0.050, 0.165, 0.165, 0.150)  # coxa with trochanter, femur, patella with tibia, tarsus
 BENDS = (-42.0, 92.0, 30.0)
 SEGMENT_NAMES = ("Coxa", "Femur", "Tibia", "Tarsus")
-# Place in joints, radius. Femur swells, patella is a knob behind the knee, the tarsus ends in a claw.
+# Place in joints, radius. The femur swells, the patella is a knob behind the knee.
 LEG_PROFILE = (
     (0.0, 0.017),
     (0.7, 0.016),

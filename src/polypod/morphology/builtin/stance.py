@@ -1,4 +1,4 @@
-"""Where the joints of a leg lie when it stands, from its segments' lengths and a foot on the ground."""
+"""Where the joints of a standing leg lie, from its segments' lengths and its foot on the ground."""
 
 from __future__ import annotations
 
