@@ -228,9 +228,13 @@ def _paw(wolf: Sculpture, bone: str, scale: float) -> None:
             sides=8,
         )
         wolf.add(toe, bone, Paint(((0.0, CREAM),), PAD, belly_edge=-0.8))
-        tip = np.array(middle) + np.array([0.0, -0.001, 0.014 * scale])
+        _, y, end = middle
         claw = limb(
-            tip + np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.008], [0.0, -0.006, 0.015]]),
+            [
+                (middle[0], y - 0.001, end + 0.014 * scale),
+                (middle[0], y - 0.001, end + 0.014 * scale + 0.008),
+                (middle[0], y - 0.007, end + 0.014 * scale + 0.015),
+            ],
             ((0.0, 0.0042), (1.0, 0.0035), (2.0, 0.0)),
             sides=6,
         )
