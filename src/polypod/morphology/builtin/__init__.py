@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from polypod.errors import RigError, choices
-from polypod.morphology.builtin import ant, spider, wolf
+from polypod.morphology.builtin import ant, centipede, crab, pentapod, spider, wolf
 from polypod.morphology.builtin.sculpture import BuiltIn
 
 _BUILDERS: dict[str, Callable[[], BuiltIn]] = {
     "spider": spider.build,
     "ant": ant.build,
+    "crab": crab.build,
+    "pentapod": pentapod.build,
+    "centipede": centipede.build,
     "wolf": wolf.build,
 }
 NAMES = tuple(_BUILDERS)
