@@ -12,7 +12,7 @@ from polypod.controller.steering import CYCLE, PREDICTION_STEPS, PlanPose, predi
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 
-REST = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+REST = PlanPose(*[0.0] * len(PlanPose._fields))
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +132,7 @@ def test_it_goes_where_it_travels_and_faces_where_it_heads(herd: Herd, travel: f
 def test_prediction_is_steering_applied_ahead(herd: Herd) -> None:
     herd.command.speed = 0.6
     herd.command.set_path([[0.0, 0.0], [0.5, 1.5], [-1.0, 2.5]], 0)
-    pose = PlanPose(0.1, 0.2, 0.3, -0.4, 0.5, 1.0)
+    pose = REST._replace(x=0.1, z=0.2, heading=0.3, turn_rate=-0.4, speed=0.5, waypoint=1.0)
     stepped = pose
     for _ in range(PREDICTION_STEPS):
         stepped = step(herd, stepped, 0.8 / PREDICTION_STEPS)
@@ -144,7 +144,7 @@ def test_prediction_is_where_frames_will_bring_it(herd: Herd) -> None:
     herd.command.speed = 0.5
     herd.command.heading = 1.2
     leg = herd.tables.leg_length
-    pose = PlanPose(0.0, 0.0, 0.2, 0.1, 0.4, 0.0)
+    pose = REST._replace(heading=0.2, turn_rate=0.1, speed=0.4)
     for seconds in (0.2, 0.5, 0.8):
         stepped, frames = pose, round(seconds * 120)
         for _ in range(frames):

@@ -32,20 +32,23 @@ def run_part(
     part: int, count: int, dt: float, turn: Any, pose: Any, state: Any, command: Any, tables: Any,
     settings: Any, env: Any, plan_settings: Any, scratch: Any,
 ) -> None:  # fmt: skip
-    """Run one part of a frame for all creatures; `turn` [C] and `pose` [C, 6] go between parts."""
+    """Run one part of a frame for all creatures; `turn` [C] and `pose` [C, 7] go between parts."""
     for c in range(count):
         if part == 0:
             shift_spacing(c, dt, state, command, tables, settings)
             restless = any_off_place(c, state, tables, settings)
             turn[c] = advance_gait(c, dt, restless, state, command, tables, settings, scratch)
-            moved = move_body(c, dt, state, command, tables, settings)
+            moved = move_body(c, dt, state, command, tables, settings, env)
             pose[c, 0] = moved.x
             pose[c, 1] = moved.z
             pose[c, 2] = moved.heading
             pose[c, 3] = moved.turn_rate
             pose[c, 4] = moved.speed
             pose[c, 5] = moved.waypoint
-        at = PlanPose(pose[c, 0], pose[c, 1], pose[c, 2], pose[c, 3], pose[c, 4], pose[c, 5])
+            pose[c, 6] = moved.detour
+        at = PlanPose(
+            pose[c, 0], pose[c, 1], pose[c, 2], pose[c, 3], pose[c, 4], pose[c, 5], pose[c, 6]
+        )
         if part == 1:
             replan_feet(c, dt, at, state, command, tables, settings, env, plan_settings, scratch)
             lift_feet(
@@ -61,7 +64,7 @@ def run_part(
             before = load_vec3(state.position[c])
             settle_body(c, dt, at, height, state, tables, env, scratch)
             note_pose(c, dt, at, before, state, command, tables, settings)
-            advance_swings(c, state, scratch, env)
+            advance_swings(c, dt, state, scratch, env)
         if part == 3:
             pose_joints(c, state, tables, scratch)
 
@@ -77,7 +80,7 @@ def step_in_parts(world: World, dt: float, seconds: NDArray[np.float64]) -> None
         for c in range(herd.count):
             if step_count(dt * state.cycle_rate[c], state.swing_extent[c]) != 1:
                 raise ValueError(f"a frame of {dt} s is several steps")
-        turn, pose = np.zeros(herd.count), np.zeros((herd.count, 6))
+        turn, pose = np.zeros(herd.count), np.zeros((herd.count, 7))
         for part in range(len(PARTS)):
             began = time.perf_counter()
             run_part(
