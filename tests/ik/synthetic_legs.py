@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from polypod.ik.reach import reach_shift
+from polypod.ik.solve import solve_leg
+from polypod.ik.table import build_ik_table
 from polypod.math.vec3 import Vec3
 from polypod.morphology.types import LegTable
+from polypod.reference import by_reference
 
 
 def make_legs(
@@ -88,6 +92,20 @@ def wolf() -> LegTable:
     return make_legs(chains, stance=stance, row=[0, 1, 0, 1])
 
 
+def horse_fore() -> LegTable:
+    """Return hind legs, and fore legs straight at rest whose only hinge lies low: a wrist."""
+    hind = [(0.1, 0, -0.4), (0.1, -0.4, -0.3), (0.1, -0.9, -0.4)]
+    fore = [(0.1, 0, 0.4), (0.1, -0.6, 0.4), (0.1, -0.9, 0.4)]
+    chains = both_sides([hind, fore])
+    stance = [(x, y + 0.12, z) for (x, y, z) in (c[-1] for c in chains)]
+    return make_legs(chains, stance=stance, row=[0, 1, 0, 1])
+
+
+def pegs() -> LegTable:
+    """Return two stiff legs of one joint."""
+    return make_legs(both_sides([[(0.1, 0, 0), (0.12, -0.5, 0)]]))
+
+
 def human() -> LegTable:
     """Return two legs, all but straight: thigh and shank to the ankle."""
     chains = both_sides([[(0.1, 0.0, 0.0), (0.1, -0.45, 0.01), (0.1, -0.88, -0.01)]])
@@ -127,6 +145,7 @@ CREATURES = {
     "spider": spider,
     "beetle": beetle,
     "wolf": wolf,
+    "horse_fore": horse_fore,
     "human": human,
     "mech": mech,
     "radial_robot": radial_robot,
@@ -135,12 +154,63 @@ CREATURES = {
 }
 
 
-def solve(ik, leg, target):
-    """Return residual, rotations [M, 4] and points [M + 1, 3] of one leg."""
-    from polypod.ik.solve import solve_leg
+class Solver:
+    """Inverse kinematics of some legs, called as the simulation calls it."""
 
-    most = ik.axis.shape[1]
-    rotation = np.zeros((most, 4))
-    point = np.zeros((most + 1, 3))
-    residual = solve_leg(ik, leg, Vec3(*map(float, target)), rotation, point)
-    return residual, rotation, point
+    def __init__(self, legs):
+        self.legs = legs
+        self.ik = build_ik_table(legs)
+        self.kernel_ik = by_reference(self.ik)
+
+    def solve(self, leg, target):
+        """Return residual, rotations [M, 4] and points [M + 1, 3] of one leg."""
+        most = self.ik.axis.shape[1]
+        rotation = np.zeros((most, 4))
+        rotation[:, 3] = 1.0
+        point = np.zeros((most + 1, 3))
+        residual = solve_leg(self.kernel_ik, leg, Vec3(*map(float, target)), rotation, point)
+        return residual, rotation, point
+
+    def shift(self, leg, target):
+        """Return the least displacement [3] that brings a target within reach."""
+        return np.array(reach_shift(self.kernel_ik, leg, Vec3(*map(float, target))))
+
+    def reaches(self, leg, target):
+        return not self.shift(leg, target).any()
+
+    def length(self, leg):
+        return float(self.ik.chain_length[leg])
+
+    def cycle_box(self, leg, count, rng):
+        """Return targets [count, 3] of a cycle: .6 leg lengths of travel, heights +-20 %."""
+        spread = np.array([0.3, 0.2, 0.3]) * self.length(leg)
+        return self.ik.effector_stance[leg] + rng.uniform(-1, 1, (count, 3)) * spread
+
+    def around_hip(self, leg, count, rng):
+        """Return targets [count, 3] all around the hip, some of them out of reach."""
+        direction = rng.normal(size=(count, 3))
+        direction /= np.linalg.norm(direction, axis=1)[:, None]
+        distance = self.length(leg) * 1.1 * rng.uniform(0, 1, count) ** 0.5
+        return self.ik.hip_rest[leg] + direction * distance[:, None]
+
+
+def turns_against_parent(rotation_a, rotation_b, count):
+    """Return how far each joint turned against its parent between two poses, rad [count]."""
+    parent_a = parent_b = np.array([0.0, 0.0, 0.0, 1.0])
+    turns = []
+    for a, b in zip(rotation_a[:count], rotation_b[:count], strict=True):
+        own_a = product(conjugated(parent_a), a)
+        own_b = product(conjugated(parent_b), b)
+        change = product(conjugated(own_a), own_b)
+        turns.append(2.0 * np.arctan2(np.linalg.norm(change[:3]), abs(change[3])))
+        parent_a, parent_b = a, b
+    return np.array(turns)
+
+
+def product(a, b):
+    vector = a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3])
+    return np.append(vector, a[3] * b[3] - a[:3] @ b[:3])
+
+
+def conjugated(q):
+    return q * np.array([-1.0, -1.0, -1.0, 1.0])

@@ -101,7 +101,7 @@ def fold_for_reach(ik: IkTable, leg: int, reach: float) -> tuple[float, Vec3]:
 
 @kernel
 def from_axes(x: Vec3, y: Vec3, z: Vec3) -> Quat:
-    """Return the rotation that turns the unit axes to `x`, `y` and `z`, with w not negative."""
+    """Return the rotation that turns the unit axes to `x`, `y` and `z`, of either sign."""
     trace = x.x + y.y + z.z
     if trace > 0.0:
         q = Quat(y.z - z.y, z.x - x.z, x.y - y.x, 1.0 + trace)
@@ -111,8 +111,6 @@ def from_axes(x: Vec3, y: Vec3, z: Vec3) -> Quat:
         q = Quat(x.y + y.x, 1.0 + y.y - x.x - z.z, y.z + z.y, z.x - x.z)
     else:
         q = Quat(z.x + x.z, y.z + z.y, 1.0 + z.z - x.x - y.y, x.y - y.x)
-    if q.w < 0.0:
-        q = Quat(-q.x, -q.y, -q.z, -q.w)
     return unit(q)
 
 
@@ -165,7 +163,13 @@ def hip_for(ik: IkTable, leg: int, chord: Vec3, direction: Vec3) -> Quat:
     direction in which that way should lead.
     """
     normal = plane_normal(ik, leg, direction * length(chord))
-    return aimed_hip(chord, load_vec3(ik.normal_rest[leg]), direction, normal)
+    aimed = aimed_hip(chord, load_vec3(ik.normal_rest[leg]), direction, normal)
+    # Of its two signs the one nearer to the stance, so that components change smoothly too.
+    stance = load_quat(ik.hip_stance[leg])
+    near = aimed.x * stance.x + aimed.y * stance.y + aimed.z * stance.z + aimed.w * stance.w
+    if near < 0.0:
+        aimed = Quat(-aimed.x, -aimed.y, -aimed.z, -aimed.w)
+    return aimed
 
 
 @kernel
