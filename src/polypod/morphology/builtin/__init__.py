@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from polypod.errors import RigError, choices
-from polypod.morphology.builtin import ant, centipede, crab, pentapod, spider, wolf
+from polypod.morphology.builtin import (
+    ant,
+    biped,
+    centipede,
+    crab,
+    lizard,
+    pentapod,
+    spider,
+    wolf,
+)
 from polypod.morphology.builtin.sculpture import BuiltIn
 
 _BUILDERS: dict[str, Callable[[], BuiltIn]] = {
@@ -15,6 +24,9 @@ _BUILDERS: dict[str, Callable[[], BuiltIn]] = {
     "pentapod": pentapod.build,
     "centipede": centipede.build,
     "wolf": wolf.build,
+    "lizard": lizard.build,
+    "biped": biped.build,
+    "biped": biped.build,
 }
 NAMES = tuple(_BUILDERS)
 
