@@ -26,7 +26,6 @@ _BUILDERS: dict[str, Callable[[], BuiltIn]] = {
     "wolf": wolf.build,
     "lizard": lizard.build,
     "biped": biped.build,
-    "biped": biped.build,
 }
 NAMES = tuple(_BUILDERS)
 
