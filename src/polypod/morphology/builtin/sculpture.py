@@ -140,6 +140,7 @@ class Sculpture:
     ) -> None:
         joints, weights = self._weights(patch, names, blend)
         positions = np.round(patch.positions, DECIMALS) + 0.0
+        positions[:, 1] = np.maximum(positions[:, 1], 0.0)  # nothing reaches into the ground
         triangles = patch.triangles
         colours = _colours(patch, paint)
         if patch.faceted:
