@@ -1,51 +1,63 @@
-"""A worker ant the size of a dog: three parts, elbowed antennae, six slender legs."""
+"""A wood ant the size of a large dog: big head, waist, plated gaster; hip height 0.25 m."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from polypod.morphology.builtin.sculpture import GLOSS, SHELL, BuiltIn, Paint, Sculpture, plain
-from polypod.morphology.builtin.shapes import body, ellipsoid, limb
+from polypod.morphology.builtin.shapes import body, ellipsoid, limb, plated
 from polypod.morphology.builtin.stance import folded_leg, outward_side
 
-RUST, DARK, AMBER, INK = "#7a3218", "#32150d", "#b4622c", "#0d0908"
+RUST, MAHOGANY, PITCH, AMBER, INK = "#8a3a1c", "#5a2413", "#22140f", "#b0683a", "#0b0909"
 
 # Leg, front to back: hip x, z; foot's heading from +Z toward +X in degrees and distance from the
 # hip in plan; length relative to the segments below. All metres.
 LEGS = (
-    (0.040, 0.070, 36.0, 0.315, 0.97),
-    (0.044, 0.000, 88.0, 0.310, 0.96),
-    (0.040, -0.070, 143.0, 0.350, 1.07),
+    (0.034, 0.072, 38.0, 0.285, 0.96),
+    (0.036, 0.000, 86.0, 0.285, 0.97),
+    (0.034, -0.058, 143.0, 0.335, 1.07),
 )
 HIP_HEIGHT = 0.25
-SEGMENTS = (0.055, 0.175, 0.165, 0.105)
-BENDS = (-48.0, 96.0, 24.0)
+SEGMENTS = (0.045, 0.170, 0.165, 0.130)  # coxa with trochanter, femur, tibia, tarsus
+BENDS = (-55.0, 100.0, -10.0)
 SEGMENT_NAMES = ("Coxa", "Femur", "Tibia", "Tarsus")
+# Place in joints, radius. The coxa is stout, the trochanter a waist, the femur a slender spindle.
 LEG_PROFILE = (
     (0.0, 0.017),
-    (0.6, 0.016),
-    (1.0, 0.0095),
-    (1.4, 0.0135),
-    (1.95, 0.0075),
-    (2.1, 0.0090),
+    (0.5, 0.019),
+    (0.9, 0.0105),
+    (1.08, 0.0095),
+    (1.4, 0.0155),
+    (1.75, 0.0120),
+    (1.97, 0.0085),
+    (2.08, 0.0095),
     (2.5, 0.0098),
-    (2.95, 0.0066),
-    (3.1, 0.0060),
-    (3.8, 0.0042),
+    (2.9, 0.0085),
+    (3.05, 0.0055),
+    (3.5, 0.0050),
+    (3.85, 0.0046),
     (4.0, 0.0),
 )
-LEG_PAINT = Paint(((0.0, RUST), (1.4, AMBER), (2.0, RUST), (3.0, AMBER), (4.0, DARK)))
+LEG_PAINT = Paint(
+    ((0.0, MAHOGANY), (1.0, RUST), (1.5, MAHOGANY), (2.0, RUST), (3.0, MAHOGANY), (4.0, PITCH)),
+    belly=PITCH,
+    belly_edge=-0.6,
+    bands=((1.0, 0.05, AMBER), (2.0, 0.04, AMBER), (3.02, 0.04, AMBER)),
+)
 
 
 def build() -> BuiltIn:
     """Return the ant."""
     ant = Sculpture("ant")
-    ant.joint("Body", (0.0, 0.270, 0.0))
-    ant.joint("Head", (0.0, 0.285, 0.130), "Body")
-    ant.joint("Petiole", (0.0, 0.262, -0.115), "Body")
-    ant.joint("Gaster", (0.0, 0.270, -0.175), "Petiole")
-    _trunk(ant)
-    _face(ant)
+    ant.joint("Body", (0.0, 0.275, 0.0))
+    ant.joint("Head", (0.0, 0.296, 0.128), "Body")
+    ant.joint("Petiole", (0.0, 0.262, -0.118), "Body")
+    ant.joint("Gaster", (0.0, 0.268, -0.192), "Petiole")
+    _thorax(ant)
+    _waist_and_gaster(ant)
+    _head(ant)
+    _jaws(ant)
+    _antennae(ant)
     for number, (x, z, heading, distance, scale) in enumerate(LEGS, start=1):
         hip = np.array([x, HIP_HEIGHT, z])
         turn = np.radians(heading)
@@ -58,100 +70,135 @@ def build() -> BuiltIn:
     return ant.finish([f"LeftLeg{k}Coxa:LeftLeg{k}Foot" for k in (3, 2, 1)])
 
 
-def _trunk(ant: Sculpture) -> None:
-    """Add the thorax in three humps, the petiole's node and the banded gaster."""
-    thorax = body(
-        (
-            (0.0, 0.262, -0.112, 0.0),
-            (0.0, 0.266, -0.090, 0.034, 0.030, 0.026),
-            (0.0, 0.276, -0.050, 0.044, 0.042, 0.034),
-            (0.0, 0.272, -0.012, 0.038, 0.030, 0.032),
-            (0.0, 0.282, 0.035, 0.050, 0.046, 0.040),
-            (0.0, 0.282, 0.080, 0.044, 0.038, 0.034),
-            (0.0, 0.278, 0.112, 0.020, 0.018, 0.018),
-            (0.0, 0.280, 0.125, 0.0),
-        ),
-        rings=24,
-        sides=14,
+def _thorax(ant: Sculpture) -> None:
+    """Add the three parts of the thorax, back to front, and the neck."""
+    propodeum = (
+        (0.0, 0.256, -0.136, 0.0),
+        (0.0, 0.266, -0.112, 0.030, 0.028, 0.022),
+        (0.0, 0.274, -0.072, 0.037, 0.036, 0.034),
+        (0.0, 0.272, -0.030, 0.030, 0.028, 0.032),
+        (0.0, 0.272, -0.008, 0.0),
     )
-    shade = Paint(((0.0, DARK), (0.3, RUST), (0.5, DARK), (0.7, RUST), (1.0, DARK)), DARK, -0.4)
-    ant.add(thorax, "Body", shade, SHELL)
-    node = body(
-        (
-            (0.0, 0.258, -0.106, 0.014),
-            (0.0, 0.262, -0.128, 0.015, 0.014, 0.012),
-            (0.0, 0.270, -0.143, 0.021, 0.034, 0.016),
-            (0.0, 0.264, -0.160, 0.014, 0.014, 0.012),
-            (0.0, 0.268, -0.182, 0.014),
-        ),
-        rings=13,
-        sides=12,
+    mesothorax = (
+        (0.0, 0.270, -0.044, 0.0),
+        (0.0, 0.272, -0.022, 0.030, 0.026, 0.032),
+        (0.0, 0.280, 0.014, 0.039, 0.036, 0.042),
+        (0.0, 0.284, 0.050, 0.036, 0.036, 0.040),
+        (0.0, 0.284, 0.074, 0.0),
     )
-    ant.add(node, "Petiole", Paint(((0.0, RUST), (0.5, AMBER), (1.0, DARK))), SHELL)
-    gaster = body(
-        (
-            (0.0, 0.268, -0.168, 0.0),
-            (0.0, 0.276, -0.200, 0.062, 0.052, 0.046),
-            (0.0, 0.284, -0.260, 0.094, 0.080, 0.070),
-            (0.0, 0.276, -0.335, 0.078, 0.064, 0.066),
-            (0.0, 0.256, -0.395, 0.034, 0.028, 0.034),
-            (0.0, 0.244, -0.418, 0.0),
-        ),
-        rings=22,
-        sides=18,
+    pronotum = (
+        (0.0, 0.284, 0.016, 0.0),
+        (0.0, 0.286, 0.040, 0.042, 0.039, 0.040),
+        (0.0, 0.286, 0.074, 0.044, 0.038, 0.040),
+        (0.0, 0.288, 0.106, 0.030, 0.025, 0.026),
+        (0.0, 0.294, 0.128, 0.016, 0.014, 0.014),
+        (0.0, 0.298, 0.142, 0.012),
     )
-    bands = tuple((place, 0.030, AMBER) for place in (0.34, 0.55, 0.74))
-    ant.add(
-        gaster, "Gaster", Paint(((0.0, RUST), (0.3, DARK), (1.0, DARK)), None, 0.0, bands), SHELL
-    )
+    shell = Paint(((0.0, RUST), (0.6, RUST), (1.0, MAHOGANY)), PITCH, belly_edge=-0.55)
+    for keys in (propodeum, mesothorax):
+        ant.add(body(keys, rings=10, sides=14), "Body", shell, SHELL)
+    ant.add(body(pronotum, rings=12, sides=14), ("Body", "Head"), shell, SHELL, blend=0.12)
 
 
-def _face(ant: Sculpture) -> None:
-    """Add the head with eyes, mandibles and elbowed antennae."""
-    head = body(
-        (
-            (0.0, 0.284, 0.118, 0.0),
-            (0.0, 0.290, 0.140, 0.056, 0.036, 0.034),
-            (0.0, 0.290, 0.180, 0.078, 0.046, 0.042),
-            (0.0, 0.278, 0.225, 0.064, 0.040, 0.038),
-            (0.0, 0.262, 0.258, 0.038, 0.026, 0.024),
-            (0.0, 0.258, 0.268, 0.0),
-        ),
-        rings=20,
-        sides=18,
-        exponent=2.3,
+def _waist_and_gaster(ant: Sculpture) -> None:
+    """Add the petiole with its upright scale, and the gaster of overlapping plates."""
+    stalk = (
+        (0.0, 0.266, -0.214, 0.014),
+        (0.0, 0.258, -0.176, 0.0125),
+        (0.0, 0.256, -0.140, 0.0125),
+        (0.0, 0.262, -0.112, 0.016),
     )
-    ant.add(head, "Head", Paint(((0.0, DARK), (0.5, RUST), (1.0, AMBER)), DARK, -0.5), SHELL)
-    eye = ellipsoid((0.064, 0.305, 0.200), (0.006, 0.004, 0.018), 0.011, 0.015, rings=7, sides=10)
+    ant.add(body(stalk, rings=7, sides=10), ("Petiole", "Gaster"), plain(RUST), SHELL)
+    scale = (
+        (0.0, 0.252, -0.158, 0.015, 0.013),
+        (0.0, 0.276, -0.160, 0.026, 0.012),
+        (0.0, 0.302, -0.164, 0.022, 0.0065),
+        (0.0, 0.315, -0.166, 0.0),
+    )
+    ant.add(body(scale, rings=8, sides=12), "Petiole", plain(RUST), SHELL)
+    gaster = (
+        (0.0, 0.232, -0.446, 0.0),
+        (0.0, 0.240, -0.424, 0.024, 0.022, 0.020),
+        (0.0, 0.262, -0.372, 0.064, 0.060, 0.054),
+        (0.0, 0.274, -0.305, 0.088, 0.080, 0.072),
+        (0.0, 0.274, -0.245, 0.074, 0.064, 0.064),
+        (0.0, 0.268, -0.200, 0.030, 0.028, 0.030),
+        (0.0, 0.266, -0.188, 0.0),
+    )
+    edges = (0.10, 0.24, 0.42, 0.66)
+    paint = Paint(
+        ((0.0, PITCH), (0.85, PITCH), (1.0, MAHOGANY)),
+        MAHOGANY,
+        -0.75,
+        tuple((edge + 0.012, 0.012, AMBER) for edge in edges),
+    )
+    ant.add(plated(gaster, edges, rings=4, sides=18, lip=0.05), "Gaster", paint, SHELL)
+
+
+def _head(ant: Sculpture) -> None:
+    """Add the head, its compound eyes and its three simple eyes."""
+    head = (
+        (0.0, 0.297, 0.136, 0.0),
+        (0.0, 0.298, 0.154, 0.056, 0.034, 0.034),
+        (0.0, 0.294, 0.190, 0.071, 0.042, 0.042),
+        (0.0, 0.284, 0.228, 0.062, 0.038, 0.038),
+        (0.0, 0.272, 0.260, 0.047, 0.026, 0.026),
+        (0.0, 0.264, 0.276, 0.0),
+    )
+    paint = Paint(((0.0, MAHOGANY), (0.5, RUST), (1.0, MAHOGANY)), PITCH, belly_edge=-0.6)
+    ant.add(body(head, rings=13, sides=18, exponent=2.3), "Head", paint, SHELL)
+    eye = ellipsoid((0.062, 0.308, 0.196), (0.004, -0.004, 0.017), 0.010, 0.012, rings=6, sides=10)
     ant.add(eye, "Head", plain(INK), GLOSS, both=True)
-    mandible = limb(
-        [
-            (0.028, 0.252, 0.250),
-            (0.046, 0.246, 0.290),
-            (0.026, 0.240, 0.322),
-            (0.003, 0.238, 0.318),
-        ],
-        ((0.0, 0.014, 0.012), (1.0, 0.013, 0.010), (2.0, 0.010, 0.007), (3.0, 0.0)),
-        sides=8,
-    )
-    ant.add(mandible, "Head", Paint(((0.0, AMBER), (2.0, DARK), (3.0, INK))), GLOSS, both=True)
-    antenna = limb(
-        [
-            (0.022, 0.292, 0.240),
-            (0.085, 0.345, 0.290),
-            (0.105, 0.322, 0.350),
-            (0.112, 0.285, 0.408),
-        ],
+    for x, y, z in ((0.013, 0.334, 0.172), (0.0, 0.335, 0.184)):
+        ocellus = ellipsoid((x, y, z), (0.0, 0.0, 0.0045), 0.0045, rings=4, sides=6)
+        ant.add(ocellus, "Head", plain(INK), GLOSS, both=x > 0.0)
+
+
+def _jaws(ant: Sculpture) -> None:
+    """Add the toothed mandibles, each on a joint."""
+    ant.joint("LeftMandible", (0.034, 0.262, 0.252), "Head")
+    blade = limb(
+        [(0.034, 0.262, 0.248), (0.052, 0.254, 0.296), (0.012, 0.246, 0.334)],
         (
-            (0.0, 0.0075),
-            (0.2, 0.0055),
-            (0.95, 0.0050),
-            (1.1, 0.0062),
-            (2.0, 0.0066),
-            (2.8, 0.0075),
-            (3.0, 0.0),
+            (0.0, 0.014, 0.011),
+            (0.5, 0.017, 0.010),
+            (1.0, 0.020, 0.009),
+            (1.5, 0.016, 0.007),
+            (2.0, 0.0),
         ),
-        sides=7,
-        pointed=False,
+        sides=10,
     )
-    ant.add(antenna, "Head", Paint(((0.0, RUST), (1.0, AMBER), (3.0, DARK))), SHELL, both=True)
+    ant.add(blade, "LeftMandible", Paint(((0.0, MAHOGANY), (1.2, PITCH), (2.0, INK))), SHELL)
+    for x, y, z in ((0.034, 0.251, 0.300), (0.026, 0.249, 0.311), (0.017, 0.247, 0.322)):
+        tooth = limb(
+            [(x + 0.006, y, z), (x - 0.013, y - 0.002, z - 0.003)],
+            ((0.0, 0.0045), (1.0, 0.0)),
+            sides=5,
+            side=(0.0, 0.0, 1.0),
+        )
+        ant.add(tooth, "LeftMandible", plain(INK), SHELL)
+
+
+def _antennae(ant: Sculpture) -> None:
+    """Add the elbowed antennae: a long scape and a beaded whip, three joints each."""
+    points = [
+        (0.024, 0.306, 0.244),
+        (0.098, 0.372, 0.292),
+        (0.120, 0.352, 0.372),
+        (0.122, 0.292, 0.438),
+    ]
+    names = ("LeftAntennaScape", "LeftAntennaFunicle", "LeftAntennaClub")
+    ant.chain(names, points, "Head", marker="LeftAntennaTip")
+    beads = [
+        (place + offset, radius)
+        for place in np.arange(1.15, 2.8, 0.25)
+        for offset, radius in ((0.0, 0.0052), (0.125, 0.0074))
+    ]
+    antenna = limb(
+        points,
+        ((0.0, 0.008), (0.08, 0.005), (0.85, 0.0075), (1.0, 0.0062), *beads, (3.0, 0.0)),
+        sides=6,
+        corner=0.1,
+    )
+    paint = Paint(((0.0, MAHOGANY), (1.0, RUST), (2.0, MAHOGANY), (3.0, PITCH)))
+    ant.add(antenna, (*names, "LeftAntennaTip"), paint, SHELL, blend=0.1)
