@@ -58,6 +58,23 @@ def test_bends_at_rest_decide_over_guesses():
     assert not build_ik_table(hind).guessed[0].any()
 
 
+def test_a_small_bend_of_an_erect_leg_tells_wrist_from_elbow():
+    for bulge, sign in ((0.035, 1.0), (-0.035, -1.0)):
+        hind = [(0.1, 0, -0.4), (0.1, -0.4, -0.3), (0.1, -0.9, -0.4)]
+        fore = [(0.1, 0, 0.4), (0.1, -0.45, 0.4 + bulge), (0.1, -0.9, 0.4)]
+        chains = both_sides([hind, fore])
+        legs = make_legs(chains, row=[0, 1, 0, 1])
+        assert sign * knee_offset(legs, 1)[2] > 0.1
+
+
+def test_a_small_bend_of_a_stretched_sprawler_does_not_turn_its_knee_sideways():
+    chain = [(0.1, 0, 0), (0.5, 0, 0.03), (0.9, 0, 0), (1.3, 0, 0)]
+    stance = [(0.9, -0.5, 0), (-0.9, -0.5, 0)]
+    legs = make_legs(both_sides([chain]), stance=stance, upright=False)
+    assert knee_offset(legs, 0)[1] > 0.1
+    assert abs(knee_offset(legs, 0)[2]) < 0.05
+
+
 def test_guesses_are_told_by_foot():
     told = guesses(build_ik_table(wolf()), ["HindL", "ForeL", "HindR", "ForeR"])
     assert len(told) == 2

@@ -15,7 +15,8 @@ import numpy as np
 from polypod.morphology.types import BoolArray, FloatArray, LegTable
 
 NOISE = math.radians(7.0)
-# A leg stretched out at rest shows no fold: any one joint's bend is noise up to more than that.
+# A sprawling leg stretched out at rest shows no fold: any one joint's bend is noise up to more than
+# that. An erect leg is always near to straight, and a small bend still tells wrist from elbow.
 STRETCHED = 0.98
 NOISE_STRETCHED = math.radians(20.0)
 # An erect leg's small bend in the frontal plane is a splayed stance, not the knee's hinge.
@@ -119,7 +120,8 @@ def find_hinges(legs: LegTable, leg: int) -> Hinges:
     bend = np.zeros(count)
     weight = np.zeros(count)
     reach = float(np.linalg.norm(bones.sum(axis=0)))
-    noise = NOISE if reach < STRETCHED * float(sizes.sum()) else NOISE_STRETCHED
+    stretched = not legs.upright[leg] and reach >= STRETCHED * float(sizes.sum())
+    noise = NOISE_STRETCHED if stretched else NOISE
     for j in range(1, count):
         across = np.cross(directions[j - 1], directions[j])
         bend[j] = math.atan2(
