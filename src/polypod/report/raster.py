@@ -12,16 +12,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from polypod.compute import kernel
 from polypod.report.arrays import FloatArray
+from polypod.report.shading import LIT, PLAIN, Look, fill_triangles, shade_pixels
 
 IntArray = NDArray[np.int64]
 ByteImage = NDArray[np.uint8]
 
+SOIL = np.array([0.60, 0.56, 0.50])  # sRGB of a cut through the ground
 PAPER = np.array([0.955, 0.96, 0.965])  # sRGB of the background
 SUN = np.array([0.34, 0.86, -0.38])  # from the scene toward the sun, camera right, up, toward
-SUN_LIGHT = 0.86
-SKY_LIGHT, GROUND_LIGHT = 0.42, 0.20
 SHADOW_PIXELS = 1400
 CREASE = math.cos(math.radians(42.0))  # surfaces that meet more sharply show an edge
 
@@ -89,8 +88,6 @@ class Scene:
     colours: list[FloatArray] = field(default_factory=list)  # [T, 3, 3]
     kinds: list[IntArray] = field(default_factory=list)  # [T] 0 lit, 1 plain colour, 2 ground
 
-    LIT, PLAIN, GROUND = 0, 1, 2
-
     def add(
         self,
         positions: FloatArray,
@@ -134,44 +131,6 @@ def corner_normals(positions: FloatArray, triangles: IntArray) -> FloatArray:
     return np.where(same, smooth, flat)
 
 
-@kernel
-def fill_triangles(
-    corner: FloatArray, nearest: float, depth: FloatArray, owner: IntArray, share: FloatArray
-) -> None:
-    """Draw triangles [T, 3, 3] (column, row, depth) into depth [H, W], owner [H, W], share.
-
-    `share` [H, W, 2] are the weights of a pixel's first two corners. What is nearer than `nearest`
-    is cut away.
-    """
-    height, width = depth.shape
-    for t in range(corner.shape[0]):
-        ax, ay, ad = corner[t, 0, 0], corner[t, 0, 1], corner[t, 0, 2]
-        bx, by, bd = corner[t, 1, 0], corner[t, 1, 1], corner[t, 1, 2]
-        cx, cy, cd = corner[t, 2, 0], corner[t, 2, 1], corner[t, 2, 2]
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        if abs(area) < 1e-12:
-            continue
-        first = math.ceil(max(min(ax, min(bx, cx)) - 0.5, 0.0))
-        last = math.floor(min(max(ax, max(bx, cx)) - 0.5, width - 1.0))
-        top = math.ceil(max(min(ay, min(by, cy)) - 0.5, 0.0))
-        bottom = math.floor(min(max(ay, max(by, cy)) - 0.5, height - 1.0))
-        for row in range(top, bottom + 1):
-            y = row + 0.5
-            for column in range(first, last + 1):
-                x = column + 0.5
-                a = ((bx - x) * (cy - y) - (by - y) * (cx - x)) / area
-                b = ((cx - x) * (ay - y) - (cy - y) * (ax - x)) / area
-                c = 1.0 - a - b
-                if a < 0.0 or b < 0.0 or c < 0.0:
-                    continue
-                d = a * ad + b * bd + c * cd
-                if nearest <= d < depth[row, column]:
-                    depth[row, column] = d
-                    owner[row, column] = t
-                    share[row, column, 0] = a
-                    share[row, column, 1] = b
-
-
 def render(
     scene: Scene,
     camera: Camera,
@@ -188,36 +147,28 @@ def render(
         camera: where it is seen from.
         grid: metres between the lines on the ground.
         fade: depths (m) at which things begin to fade into the paper, and are gone.
-        nearest: depth before which everything is cut away, m.
+        nearest: depth before which everything is cut away, m; the cut through the ground is soil.
         oversampling: pixels drawn each way for one that is shown.
     """
     large = camera.enlarged(oversampling)
-    corners = np.concatenate(scene.corners)
+    corners = np.ascontiguousarray(np.concatenate(scene.corners))
     depth, owner, share = _draw(large.project(corners), large.width, large.height, nearest)
-    seen = owner >= 0
-    triangle = owner[seen]
-    weight = np.empty((len(triangle), 3))
-    weight[:, :2] = share[seen]
-    weight[:, 2] = 1.0 - weight[:, 0] - weight[:, 1]
-
-    def at_pixels(values: FloatArray) -> FloatArray:
-        picked: FloatArray = np.einsum("pc,pcn->pn", weight, values[triangle])
-        return picked
-
-    place = at_pixels(corners)
-    normal = _unit(at_pixels(np.concatenate(scene.normals)))
-    kind = np.concatenate(scene.kinds)[triangle]
-    colour = _linear(at_pixels(np.concatenate(scene.colours)))
-    ground = kind == Scene.GROUND
-    colour[ground] *= _grid_lines(place[ground], grid, large.pixels_per_metre)[:, None]
-    lit = _light(scene, camera, place, normal)
-    colour = np.where((kind == Scene.PLAIN)[:, None], colour, colour * lit[:, None])
-    begin, end = fade
-    if math.isfinite(end):
-        gone = np.clip((depth[seen] - begin) / (end - begin), 0.0, 1.0)[:, None]
-        colour = colour * (1.0 - gone) + _linear(PAPER) * gone
-    picture = np.broadcast_to(_linear(PAPER), (large.height, large.width, 3)).copy()
-    picture[seen] = colour
+    picture = np.empty((large.height, large.width, 3))
+    picture[:] = linear_from_srgb(PAPER)
+    if nearest > -math.inf:
+        below = np.logical_or.accumulate(owner >= 0, axis=0)
+        picture[below] = linear_from_srgb(SOIL)
+    shade_pixels(
+        corners,
+        np.concatenate(scene.normals),
+        linear_from_srgb(np.concatenate(scene.colours)),
+        np.concatenate(scene.kinds),
+        _look(scene, large, grid, fade),
+        depth,
+        owner,
+        share,
+        picture,
+    )
     shape = (camera.height, oversampling, camera.width, oversampling, 3)
     return _bytes(picture.reshape(shape).mean(axis=(1, 3)))
 
@@ -232,54 +183,55 @@ def _draw(
     return depth, owner, share
 
 
-def _light(scene: Scene, camera: Camera, place: FloatArray, normal: FloatArray) -> FloatArray:
-    """Return how bright each pixel is: sky from above, the sun where nothing is in its way."""
+def _look(scene: Scene, camera: Camera, grid: float, fade: tuple[float, float]) -> Look:
+    """Return how to shade a scene: the sun's own view of it, lines and fading."""
+    toward = sun_direction(camera)
+    right = _unit(np.cross(np.array([0.0, 1.0, 0.0]), toward))
+    up = np.cross(toward, right)
+    solid = [
+        corners.reshape(-1, 3)
+        for corners, kind in zip(scene.corners, scene.kinds, strict=True)
+        if kind[0] != PLAIN
+    ]
+    # The sun looks at what the picture shows; what lies beyond it may cast no shadow there.
+    half = np.array([0.5 * camera.width, 0.5 * camera.height]) / camera.pixels_per_metre
+    corners = np.concatenate(solid)
+    offset = corners - camera.centre
+    shown = (np.abs(offset @ camera.right) < 1.2 * half[0]) & (
+        np.abs(offset @ camera.up) < 1.2 * half[1]
+    )
+    seen = corners[shown] if shown.sum() > 2 else corners
+    plan = np.stack([seen @ right, seen @ up], axis=1)
+    least, most = plan.min(axis=0), plan.max(axis=0)
+    middle = 0.5 * (least + most)
+    size = max(2, min(SHADOW_PIXELS, camera.width))
+    scale = 0.98 * size / max(float((most - least).max()), 1e-12)
+    view = Camera(middle[0] * right + middle[1] * up, right, up, toward, scale, size, size)
+    depth, _, _ = _draw(view.project(corners.reshape(-1, 3, 3)), size, size, -math.inf)
+    begin, end = fade if math.isfinite(fade[1]) else (1e30, 2e30)
+    return Look(
+        camera.toward,
+        view.centre,
+        right,
+        up,
+        toward,
+        scale,
+        depth,
+        grid,
+        camera.pixels_per_metre,
+        begin,
+        end,
+        linear_from_srgb(PAPER),
+    )
+
+
+def sun_direction(camera: Camera) -> FloatArray:
+    """Return the unit direction [3] to the sun, which stands over the viewer's left shoulder."""
     sun = SUN / np.linalg.norm(SUN)
     level = _unit(camera.right - np.array([0.0, camera.right[1], 0.0]))
     aside = np.cross(level, np.array([0.0, 1.0, 0.0]))
-    toward = level * sun[0] + np.array([0.0, sun[1], 0.0]) - aside * sun[2]
-    # Thin parts are often modelled from one side: light what faces the viewer.
-    facing = np.where((normal @ camera.toward)[:, None] < 0.0, -normal, normal)
-    cosine = np.maximum(facing @ toward, 0.0)
-    sky = GROUND_LIGHT + (SKY_LIGHT - GROUND_LIGHT) * (0.5 + 0.5 * facing[:, 1])
-    shade: FloatArray = sky + SUN_LIGHT * cosine * _sunlit(scene, camera, place, toward)
-    return shade
-
-
-def _sunlit(scene: Scene, camera: Camera, place: FloatArray, toward: FloatArray) -> FloatArray:
-    """Return the share [P] of the sun that reaches each place, by a depth map from the sun."""
-    right = _unit(np.cross(np.array([0.0, 1.0, 0.0]), toward))
-    size = max(2, min(SHADOW_PIXELS, 2 * max(camera.width, camera.height)))
-    span = np.ptp(place @ np.stack([right, np.cross(toward, right)], axis=1), axis=0).max()
-    middle = 0.5 * (place.min(axis=0) + place.max(axis=0))
-    scale = 0.98 * size / max(float(span), 1e-12)
-    view = Camera(middle, right, np.cross(toward, right), toward, scale, size, size)
-    solid = [
-        corners
-        for corners, kind in zip(scene.corners, scene.kinds, strict=True)
-        if kind[0] != Scene.PLAIN
-    ]
-    depth, _, _ = _draw(view.project(np.concatenate(solid)), size, size, -math.inf)
-    where = view.project(place)
-    # A surface must not shade itself: allow for its depth changing within a few map pixels.
-    bias = 3.5 / scale
-    light = np.zeros(len(place))
-    offsets = [(x, y) for x in (-1.2, 0.0, 1.2) for y in (-1.2, 0.0, 1.2)]
-    for x, y in offsets:
-        column = np.clip((where[:, 0] + x).astype(np.int64), 0, size - 1)
-        row = np.clip((where[:, 1] + y).astype(np.int64), 0, size - 1)
-        light += depth[row, column] > where[:, 2] - bias
-    shared: FloatArray = light / len(offsets)
-    return shared
-
-
-def _grid_lines(place: FloatArray, grid: float, pixels_per_metre: float) -> FloatArray:
-    """Return how much lines and a faint chequer on the ground darken each place [P, 3]."""
-    cells = place[:, [0, 2]] / grid
-    to_line = np.abs(cells - np.round(cells)).min(axis=1) * grid * pixels_per_metre
-    chequer = np.floor(cells).sum(axis=1) % 2.0
-    lines: FloatArray = np.where(to_line < 1.2, 0.80, 1.0) * (1.0 - 0.045 * chequer)
-    return lines
+    toward: FloatArray = level * sun[0] + np.array([0.0, sun[1], 0.0]) - aside * sun[2]
+    return toward
 
 
 def _unit(vectors: FloatArray) -> FloatArray:
@@ -288,7 +240,8 @@ def _unit(vectors: FloatArray) -> FloatArray:
     return scaled
 
 
-def _linear(srgb: FloatArray) -> FloatArray:
+def linear_from_srgb(srgb: FloatArray) -> FloatArray:
+    """Return how bright colours are that a screen shows so, near enough."""
     lightness: FloatArray = np.clip(srgb, 0.0, 1.0) ** 2.2
     return lightness
 

@@ -15,6 +15,7 @@ from polypod.report.arrays import FloatArray, conjugate_all, rotate_all, runs_of
 from polypod.report.ground import terrain_height
 from polypod.report.raster import Scene
 from polypod.report.record import Recording
+from polypod.report.shading import GROUND, PLAIN
 
 IntArray = NDArray[np.int64]
 
@@ -63,7 +64,7 @@ def add_ground(
     colour = np.broadcast_to(EARTH, positions.shape).copy()
     if environment.water.size:
         colour[_wet(environment, across.ravel(), along.ravel())] = WATER
-    scene.add(positions, np.concatenate([first, second]), colour, Scene.GROUND)
+    scene.add(positions, np.concatenate([first, second]), colour, GROUND)
 
 
 def _lattice(
@@ -88,34 +89,50 @@ def _wet(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> NDArray
     return wet
 
 
-def add_obstacles(
-    scene: Scene,
-    environment: EnvironmentTable,
-    recording: Recording,
-    frame: int,
-    shown: NDArray[np.bool_],
-) -> None:
-    """Add the obstacles for which `shown` [O] holds, where they are in that frame.
+class Obstacles:
+    """The obstacles' surfaces, cut out of their planes once."""
 
-    What the table lists beyond the record's obstacles is part of the terrain.
-    """
-    recorded = recording.obstacle_position.shape[1]
-    for index in np.flatnonzero(shown):
-        positions, triangles = obstacle_surface(environment, int(index))
-        colour = FORBIDDEN if environment.forbidden[index] else CRATE
-        if index < recorded:
+    def __init__(self, environment: EnvironmentTable, recorded: int) -> None:
+        """Prepare; what the table lists beyond the `recorded` obstacles is part of the terrain."""
+        self.environment = environment
+        self.recorded = recorded
+        self._surfaces: dict[int, tuple[FloatArray, IntArray]] = {}
+
+    def add(self, scene: Scene, recording: Recording, frame: int, shown: NDArray[np.bool_]) -> None:
+        """Add the obstacles for which `shown` [O] holds, where they are in that frame."""
+        positions: list[FloatArray] = []
+        triangles: list[IntArray] = []
+        colours: list[FloatArray] = []
+        for index in np.flatnonzero(shown):
+            place, faces = self._placed(recording, frame, int(index))
+            triangles.append(faces + sum(map(len, positions)))
+            positions.append(place)
+            colours.append(np.broadcast_to(self._colour(int(index)), place.shape))
+        if positions:
+            scene.add(np.concatenate(positions), np.concatenate(triangles), np.concatenate(colours))
+
+    def _colour(self, index: int) -> FloatArray:
+        if index >= self.recorded:
+            return STONE
+        colour = FORBIDDEN if self.environment.forbidden[index] else CRATE
+        # Neighbouring crates differ a little, so that a heap can be read.
+        varied: FloatArray = colour * (1.0 - 0.10 * (((index * 7) % 5) / 4.0))
+        return varied
+
+    def _placed(self, recording: Recording, frame: int, index: int) -> tuple[FloatArray, IntArray]:
+        """Return world positions and triangles of an obstacle in a frame."""
+        table = self.environment
+        if index not in self._surfaces:
+            self._surfaces[index] = obstacle_surface(table, index)
+        positions, triangles = self._surfaces[index]
+        if index < self.recorded:
             local = rotate_all(
-                conjugate_all(environment.rotation[index]),
-                positions - environment.position[index],
+                conjugate_all(table.rotation[index]), positions - table.position[index]
             )
             positions = recording.obstacle_position[frame, index] + rotate_all(
                 recording.obstacle_rotation[frame, index], local
             )
-            # Neighbouring crates differ a little, so that a heap can be read.
-            colour = colour * (1.0 - 0.10 * (((index * 7) % 5) / 4.0))
-        else:
-            colour = STONE
-        scene.add(positions, triangles, colour)
+        return positions, triangles
 
 
 def obstacle_surface(environment: EnvironmentTable, index: int) -> tuple[FloatArray, IntArray]:
@@ -193,7 +210,7 @@ def add_footprints(
             if first <= start <= last:
                 # Raised, so that the ground's slope within the disc does not hide it.
                 centre = recording.foot_position[start, foot] + np.array([0.0, 0.25 * radius, 0.0])
-                scene.add(np.concatenate([centre + rim, [centre]]), fan, colour, Scene.PLAIN)
+                scene.add(np.concatenate([centre + rim, [centre]]), fan, colour, PLAIN)
 
 
 def add_swings(
@@ -224,7 +241,7 @@ def _add_ribbon(
             np.stack([a + 1, a + count + 1, a + count], axis=1),
         ]
     )
-    scene.add(positions, triangles, colour, Scene.PLAIN)
+    scene.add(positions, triangles, colour, PLAIN)
 
 
 def add_bones(scene: Scene, recording: Recording, frame: int, colour: FloatArray) -> None:

@@ -80,7 +80,7 @@ def write_strip(
     several = [recordings] if isinstance(recordings, Recording) else list(recordings)
     picture = draw_strip(several, environment, columns, width, oversampling)
     with replacing(path) as temporary:
-        Image.fromarray(picture).save(temporary, format="PNG", optimize=True)
+        Image.fromarray(picture).save(temporary, format="PNG")
 
 
 def draw_strip(
@@ -132,6 +132,7 @@ class _Drawing:
         self.width = width
         self.oversampling = oversampling
         self.leader = walkers[0].recording
+        self.obstacles = scenery.Obstacles(environment, self.leader.obstacle_position.shape[1])
         self.heading = _heading(self.leader, frames)
         self.leg_length = float(self.leader.morphology.legs.length.mean())
         # From where the body is, so that hills do not widen the panels.
@@ -229,7 +230,7 @@ class _Drawing:
         scene = Scene()
         scenery.add_ground(scene, self.environment, camera.centre, reach)
         near = self._near_obstacles(camera, reach, cut=elevation < math.radians(20.0))
-        scenery.add_obstacles(scene, self.environment, self.leader, poses[0], near)
+        self.obstacles.add(scene, self.leader, poses[0], near)
         for walker in self.walkers:
             for frame in poses:
                 walker.add(scene, frame)
