@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from polypod.morphology.builtin.shapes import FloatArray, IntArray, Patch, mirrored
+from polypod.morphology.builtin.curves import FloatArray
+from polypod.morphology.builtin.shapes import IntArray, Patch, mirrored
 from polypod.rigs.author import Joint, Material, SkinnedSurface, author_glb
 
 DECIMALS = 6  # positions are kept to the micrometre: the same bytes whatever the platform's sine

@@ -12,7 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FloatArray = NDArray[np.float64]
+from polypod.morphology.builtin.curves import (
+    FloatArray,
+    arc_length,
+    frames,
+    monotone_curve,
+    rounded_chain,
+)
+
 IntArray = NDArray[np.int64]
 
 LEFT = (1.0, 0.0, 0.0)
@@ -39,13 +46,6 @@ def round_ring(sides: int, exponent: float = 2.0) -> FloatArray:
     return np.round(ring, 12)
 
 
-def chamfered_ring(cut: float = 0.3) -> FloatArray:
-    """Return a square [8, 2] of half size 1 with its corners cut off: a machined beam."""
-    near = 1.0 - cut
-    half = [(1.0, near), (near, 1.0), (-near, 1.0), (-1.0, near)]
-    return np.array(half + [(-x, -y) for x, y in half])
-
-
 def sweep(
     centres: FloatArray,
     radii: FloatArray,
@@ -67,9 +67,9 @@ def sweep(
     """
     count, sides = len(centres), len(ring)
     if along is None:
-        along = _arc_length(centres)
+        along = arc_length(centres)
         along = along / along[-1]
-    across, up = _frames(centres, np.asarray(side, dtype=np.float64))
+    across, up = frames(centres, np.asarray(side, dtype=np.float64))
     vertical = np.where(ring[:, 1] >= 0.0, radii[:, 1:2], radii[:, 2:3]) * ring[:, 1]
     lateral = radii[:, 0:1] * ring[:, 0]
     body = (
@@ -113,7 +113,7 @@ def body(
         pointed: a zero radius at an end makes a cone instead of a dome.
     """
     table = np.array([_widths(key) for key in keys])
-    place = _arc_length(table[:, :3])
+    place = arc_length(table[:, :3])
     place = place / place[-1]
     at = _ring_places(rings, table[0, 3] <= 0.0, table[-1, 3] <= 0.0, pointed)
     power = 1.0 if pointed else 2.0  # the square of a dome's radius falls off in a straight line
@@ -144,7 +144,7 @@ def plated(
         exponent: of the superellipse.
     """
     table = np.array([_widths(key) for key in keys])
-    place = _arc_length(table[:, :3])
+    place = arc_length(table[:, :3])
     place = place / place[-1]
     # Domes need their rings close together at the ends, and so the plates are even in angle.
     angle = np.arccos(1.0 - 2.0 * np.array([0.0, *edges, 1.0]))
@@ -227,68 +227,6 @@ def limb(
     )
 
 
-def rounded_chain(chain: FloatArray, places: FloatArray, corner: float) -> FloatArray:
-    """Return points [R, 3] of a polyline whose inner corners are quadratic arcs.
-
-    Args:
-        chain: [N, 3] the polyline.
-        places: [R] places along it, in segments from 0 to N - 1.
-        corner: part of each segment beside a corner, in [0, 0.5], that the arc takes.
-    """
-    segment = np.clip(places.astype(np.int64), 0, len(chain) - 2)
-    rest = (places - segment)[:, None]
-    result = chain[segment] * (1.0 - rest) + chain[segment + 1] * rest
-    for bend in range(1, len(chain) - 1):
-        before = chain[bend] + corner * (chain[bend - 1] - chain[bend])
-        after = chain[bend] + corner * (chain[bend + 1] - chain[bend])
-        inside = np.abs(places - bend) < corner
-        part = ((places[inside] - bend) / (2.0 * corner) + 0.5)[:, None]
-        result[inside] = (
-            (1.0 - part) ** 2 * before + 2.0 * part * (1.0 - part) * chain[bend] + part**2 * after
-        )
-    return result
-
-
-def monotone_curve(places: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
-    """Return values [R, C] of the monotone cubic (Fritsch and Carlson 1980) through keys [K, C]."""
-    step = np.diff(places)[:, None]
-    secant = np.diff(values, axis=0) / step
-    slope = np.zeros_like(values)
-    if len(places) == 2:
-        slope[:] = secant[0]
-    else:
-        before, after = 2.0 * step[1:] + step[:-1], step[1:] + 2.0 * step[:-1]
-        same = secant[:-1] * secant[1:] > 0.0
-        with np.errstate(divide="ignore", invalid="ignore"):
-            mean = (before + after) / (before / secant[:-1] + after / secant[1:])
-        slope[1:-1] = np.where(same, mean, 0.0)
-        slope[0] = _end_slope(step[0], step[1], secant[0], secant[1])
-        slope[-1] = _end_slope(step[-1], step[-2], secant[-1], secant[-2])
-    index = np.clip(np.searchsorted(places, at, side="right") - 1, 0, len(places) - 2)
-    width = step[index]
-    t = (at - places[index])[:, None] / width
-    return (
-        (1.0 + 2.0 * t) * (1.0 - t) ** 2 * values[index]
-        + t * (1.0 - t) ** 2 * width * slope[index]
-        + t**2 * (3.0 - 2.0 * t) * values[index + 1]
-        + t**2 * (t - 1.0) * width * slope[index + 1]
-    )
-
-
-def moved(patch: Patch, rotation: ArrayLike, origin: ArrayLike, to: ArrayLike) -> Patch:
-    """Return a patch turned by a matrix [3, 3] about `origin`, which then lies at `to`."""
-    turn = np.asarray(rotation, dtype=np.float64)
-    start, end = np.asarray(origin, dtype=np.float64), np.asarray(to, dtype=np.float64)
-    return Patch(
-        (patch.positions - start) @ turn.T + end,
-        patch.triangles,
-        (patch.centres - start) @ turn.T + end,
-        patch.along,
-        patch.height,
-        patch.faceted,
-    )
-
-
 def mirrored(patch: Patch) -> Patch:
     """Return a patch on the other side of the plane x = 0."""
     flip = np.array([-1.0, 1.0, 1.0])
@@ -302,27 +240,11 @@ def mirrored(patch: Patch) -> Patch:
     )
 
 
-def _end_slope(
-    near: FloatArray, far: FloatArray, secant: FloatArray, next_secant: FloatArray
-) -> FloatArray:
-    """Return the three-point slope at an end, kept monotone."""
-    slope = ((2.0 * near + far) * secant - near * next_secant) / (near + far)
-    slope = np.where(slope * secant <= 0.0, 0.0, slope)
-    steep = (secant * next_secant <= 0.0) & (np.abs(slope) > 3.0 * np.abs(secant))
-    return np.where(steep, 3.0 * secant, slope)
-
-
 def _widths(key: Sequence[float]) -> list[float]:
     """Return a key as x, y, z, across, up, down."""
     across = key[3]
     up = key[4] if len(key) > 4 else across
     return [*key[:3], across, up, key[5] if len(key) > 5 else up]
-
-
-def _arc_length(points: FloatArray) -> FloatArray:
-    """Return the length [R] along a polyline up to each of its points."""
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def _ring_places(rings: int, dome_start: bool, dome_end: bool, pointed: bool) -> FloatArray:
@@ -337,20 +259,16 @@ def _ring_places(rings: int, dome_start: bool, dome_end: bool, pointed: bool) ->
     return 1.0 - np.cos(0.5 * np.pi * part)
 
 
-def _frames(centres: FloatArray, side: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the directions [R, 3] across and up of the sections of a curve."""
-    steps = np.diff(centres, axis=0)
-    steps /= np.linalg.norm(steps, axis=1, keepdims=True)
-    tangent = np.concatenate([steps[:1], steps[:-1] + steps[1:], steps[-1:]])
-    up = np.cross(tangent, side)
-    up /= np.linalg.norm(up, axis=1, keepdims=True)
-    across = np.cross(up, tangent)
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
-    return across, up
-
-
 def _tube_triangles(grid: IntArray, poles: tuple[int, int]) -> IntArray:
     """Return the triangles of rows of vertices [R, S] and the two poles."""
+    nextward = np.roll(grid, -1, axis=1)
+    start = np.stack([nextward[0], grid[0], np.full_like(grid[0], poles[0])], -1)
+    end = np.stack([grid[-1], nextward[-1], np.full_like(grid[0], poles[1])], -1)
+    return np.concatenate([start, band_triangles(grid), end])
+
+
+def band_triangles(grid: IntArray) -> IntArray:
+    """Return the triangles between rows of vertices [R, S]."""
     nextward = np.roll(grid, -1, axis=1)
     a, b, c, d = grid[:-1], nextward[:-1], nextward[1:], grid[1:]
     # The diagonal flips on one side of the ring, so that the mesh mirrors onto itself.
@@ -358,6 +276,4 @@ def _tube_triangles(grid: IntArray, poles: tuple[int, int]) -> IntArray:
     half = (np.cos(2.0 * np.pi * (np.arange(sides) + 1.0) / sides) > 1e-9)[None, :, None]
     first = np.where(half, np.stack([a, b, c], -1), np.stack([a, b, d], -1)).reshape(-1, 3)
     second = np.where(half, np.stack([a, c, d], -1), np.stack([b, c, d], -1)).reshape(-1, 3)
-    start = np.stack([nextward[0], grid[0], np.full_like(grid[0], poles[0])], -1)
-    end = np.stack([grid[-1], nextward[-1], np.full_like(grid[0], poles[1])], -1)
-    return np.concatenate([start, first, second, end])
+    return np.concatenate([first, second])

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from polypod.morphology.builtin.shapes import FloatArray
+from polypod.morphology.builtin.curves import FloatArray
 
 HALVINGS = 60  # of the bisection; the bracket ends below the rounding of a double
 
