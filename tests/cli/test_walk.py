@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +48,23 @@ def test_the_same_words_make_the_same_bytes(folder: Path) -> None:
         assert polypod(*words, "--record", f"{name}.npz").code == 0
     assert Path("a.glb").read_bytes() == Path("b.glb").read_bytes()
     assert Path("a.npz").read_bytes() == Path("b.npz").read_bytes()
+
+
+def test_plain_python_walks_the_same_walk(folder: Path) -> None:
+    words = ["walk", "--scene", "crates.toml", *SHORT, "--record"]
+    assert polypod(*words, "compiled.npz").code == 0
+    done = subprocess.run(
+        [sys.executable, "-m", "polypod", *words, "plain.npz"],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "compil" not in done.stderr
+    compiled, plain = read_record(folder / "compiled.npz"), read_record(folder / "plain.npz")
+    np.testing.assert_array_equal(plain.foot_stance, compiled.foot_stance)
+    np.testing.assert_allclose(plain.joint_position, compiled.joint_position, rtol=0.0, atol=1e-9)
 
 
 def test_path_sets_start_facing_and_time(folder: Path) -> None:

@@ -60,26 +60,37 @@ class CompileCounter:
 
     def __init__(self, first_run: bool) -> None:
         self.count = 0
+        self.depth = 0
+        self.seconds = 0.0
         self.first_run = first_run
         self.started = 0.0
         self.said = 0.0
-        self.ended = 0.0
 
-    def add(self) -> None:
-        """Count a function whose compilation starts."""
+    def start(self) -> None:
+        """Count a function whose compilation starts, within another's or by itself."""
         if self.count == 0:
             self._begin()
+        if self.depth == 0:
+            self.started = time.monotonic()
+        self.depth += 1
         self.count += 1
         self._tell()
 
+    def end(self) -> None:
+        """Add up the time of those that were by themselves."""
+        self.depth -= 1
+        if self.depth == 0:
+            self.seconds += time.monotonic() - self.started
+
     def _begin(self) -> None:
-        self.started = self.said = time.monotonic()
+        self.said = time.monotonic()
         about = "first run only" if self.first_run else "and keeping them for later runs"
         note(f"compiling kernels ({about}, at most about {COMPILE_SECONDS} s)")
 
     def _tell(self) -> None:
         now = time.monotonic()
-        text = f"compiling kernels: {self.count} functions, {now - self.started:.0f} s"
+        seconds = self.seconds + now - self.started
+        text = f"compiling kernels: {self.count} functions, {seconds:.0f} s"
         if on_terminal():
             print(f"\r{text} ", end="", file=sys.stderr, flush=True)
         elif now - self.said > LINE_EVERY_S:
@@ -89,29 +100,26 @@ class CompileCounter:
     def finish(self) -> None:
         """Say how long it took, if anything was compiled."""
         if self.count:
-            seconds = self.ended - self.started
-            start = "\r" if on_terminal() else ""
-            note(f"{start}compiled {self.count} functions in {seconds:.0f} s          ")
+            text = f"compiled {self.count} functions in {self.seconds:.0f} s"
+            # Spaces cover the rest of the line that counted.
+            note(f"\r{text}{'':12}" if on_terminal() else text)
 
 
 @contextmanager
 def telling_of_compilation() -> Iterator[None]:
     """Say on screen what is compiled within, if anything is."""
-    prepare_cache()
+    folder = prepare_cache()
     from numba.core import event
 
-    from polypod.cache import kernel_cache_folder
-
-    folder = kernel_cache_folder()
     counter = CompileCounter(first_run=not any(folder.rglob("*.nbi")))
     events: Any = event
 
     class Listener(event.Listener):
         def on_start(self, event: Any) -> None:
-            counter.add()
+            counter.start()
 
         def on_end(self, event: Any) -> None:
-            counter.ended = time.monotonic()
+            counter.end()
 
     listener = Listener()
     events.register("numba:compile", listener)
