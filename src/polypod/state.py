@@ -62,6 +62,8 @@ class HerdState(NamedTuple):
     gait_number: IntArray  # [C] of the command's gait that the transition is to
     least_down: IntArray  # [C] fewest feet that must stand at any moment
     swinging: BoolArray  # [C, K] the foot is off the ground
+    airborne: FloatArray  # [C, K] s since it lifted
+    frame: FloatArray  # [C] s between two frames that are shown
     stood: FloatArray  # [C, K] cycles since it landed
     lift_phase: FloatArray  # [C, K] needle at lift-off, or at the last new plan
     swing_progress: FloatArray  # [C, K] of the time from there to touchdown, 0 to 1
@@ -137,6 +139,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "duty",
             "plane_height",
             "hurry",
+            "frame",
             "detour",
             "blend_left",
             "gait_number",
@@ -146,7 +149,15 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
     )
     per_foot = dict.fromkeys(
         (
-            *("swing_start", "swing_extent", "goal_start", "goal_extent", "swinging", "stood"),
+            *(
+                "swing_start",
+                "swing_extent",
+                "goal_start",
+                "goal_extent",
+                "swinging",
+                "stood",
+                "airborne",
+            ),
             *("lift_phase", "swing_progress", "waiting", "foot_support", "path_launch", "residual"),
         ),
         (c, k),

@@ -72,6 +72,7 @@ def step_range(
 ) -> None:  # fmt: skip
     """Step the creatures first to last - 1; a needle that turns far in `dt` goes in parts."""
     for c in range(first, last):
+        state.frame[c] = dt
         parts = step_count(dt * state.cycle_rate[c], state.swing_extent[c])
         for _ in range(parts):
             step_creature(

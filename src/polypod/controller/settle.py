@@ -16,8 +16,12 @@ from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
 # A frame's chord is looked at in so many places, and is halved so often.
-CHORD_SAMPLES = 4
+CHORD_SAMPLES = 8
 SHORTER = 4
+# A step must be seen: between two frames in which a foot stands it is shown in the air, or its
+# stances would look like a slip.
+FRAMES_AIRBORNE = 1.001
+NEARLY_DOWN = 0.95
 
 
 @kernel
@@ -44,6 +48,8 @@ def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
         if state.swinging[c, k]:
             now = state.swing_progress[c, k]
             progress = wished_progress(c, k, dt, state)
+            if state.airborne[c, k] + dt <= FRAMES_AIRBORNE * state.frame[c]:
+                progress = min(progress, NEARLY_DOWN)
             before = sole
             sole, turn = foot_along(c, k, progress, state)
             for _ in range(SHORTER):
@@ -117,6 +123,7 @@ def advance_swings(c: int, dt: float, state: Any, scratch: Any, env: Any) -> Non
     for k in range(state.swinging.shape[1]):
         if not state.swinging[c, k]:
             continue
+        state.airborne[c, k] += dt
         if scratch.held[k]:
             state.waiting[c, k] += dt
             continue

@@ -96,6 +96,7 @@ def try_lift(
         state, command, tables, settings, env, plan_settings, scratch,
     ):  # fmt: skip
         state.swinging[c, k] = True
+        state.airborne[c, k] = 0.0
         begin_swing(c, k, begun, 0.0, state, scratch)
         state.waiting[c, k] = 0.0
         return True

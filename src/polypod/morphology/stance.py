@@ -20,6 +20,8 @@ FULL_EXTENSION = 0.97  # with a body height that was asked for
 LEAST_DROP = 0.15  # a sole at least this far below its hip stands
 LEVEL = 0.15  # soles within this of each other are on one ground
 MOST_CROUCH = 0.2  # beyond it the soles are drawn in instead
+ERECT = 0.45  # a sole no farther aside of its hip than this part of its drop is under it
+UNDER_HIP, MOST_MOVE = 0.85, 0.3  # how much of what it is ahead or behind is taken back
 SPREAD, DROP = 0.6, 0.47  # a made-up stance: out from the hip, and down
 ASYMMETRY = 0.25  # pairs nearer to mirror images than this are made so
 
@@ -63,6 +65,7 @@ def stand(hip: FloatArray, limbs: list[Limb], layout: Layout, ground_asked: floa
         )
     sole = _put_down(hip, sole, length, layout, standing, ground)
     sole[:, 1] = ground
+    sole = _under_hips(hip, sole, limbs)
     sole = _symmetric(sole, hip, length, layout)
     if ground_asked is not None:
         sole[:, 1] = ground_asked
@@ -119,6 +122,24 @@ def _put_down(
         spread = SPREAD * length[k] / plan if plan > 1e-6 * length[k] else 0.0
         placed[k] = [hip[k, 0] + spread * outward[0], ground, hip[k, 2] + spread * outward[2]]
     return placed
+
+
+def _under_hips(hip: FloatArray, sole: FloatArray, limbs: list[Limb]) -> FloatArray:
+    """Return soles with those of erect legs moved along the body until they are under their hips.
+
+    A foot swings as far ahead of its hip as behind it: one that rests off its hip, as a sculptor's
+    pose has it, leaves half of the stride out of reach.
+    """
+    effector, chain = _effectors(sole, limbs)
+    moved = sole.copy()
+    for k in range(len(limbs)):
+        drop = hip[k, 1] - effector[k, 1]
+        aside = abs(effector[k, 0] - hip[k, 0])
+        ahead = effector[k, 2] - hip[k, 2]
+        if aside < ERECT * drop and abs(ahead) < drop:
+            most = MOST_MOVE * chain[k]
+            moved[k, 2] -= min(most, max(-most, UNDER_HIP * ahead))
+    return moved
 
 
 def _symmetric(sole: FloatArray, hip: FloatArray, length: FloatArray, layout: Layout) -> FloatArray:
