@@ -20,8 +20,14 @@ LEG = 0.5  # m
 BONE = 0.5 * LEG
 HEIGHT = 0.2  # m, of the body centre above the soles
 HIPS = np.array([[side * 0.1, 0.0, z] for z in (-0.18, 0.0, 0.18) for side in (1.0, -1.0)])
+# Each row has a track of its own, so that a thing in the way of one foot is in no other's.
+REACHES = (0.22, 0.30, 0.26)
 REST_SOLES = HIPS + np.array(
-    [[s * 0.27, -HEIGHT, 0.5 * z] for z in (-0.2, 0.0, 0.2) for s in (1, -1)]
+    [
+        [side * reach, -HEIGHT, 0.5 * z]
+        for z, reach in zip((-0.2, 0.0, 0.2), REACHES, strict=True)
+        for side in (1, -1)
+    ]
 )
 PHASES = np.array([0.0, 0.5, 0.5, 0.0, 0.0, 0.5])  # touchdowns of the alternating tripod
 DUTY = 0.6
@@ -184,7 +190,7 @@ def walk(seconds=4.0, fps=30, bob=0.004, obstacle_count=0, edit=None) -> Recordi
     """Return a faultless walk over flat ground, or one with faults.
 
     The body's height is HEIGHT + bob cos(4 pi t / T): two beats a stride. `edit(frame, time, soles,
-    targets, stance)` may change where soles [6, 3] are led to, or what was planned.
+    targets, stance, support)` may change where soles [6, 3] are led to, and what was planned.
     """
     body = morphology()
     recorder = Recorder(body, obstacle_count)

@@ -88,7 +88,7 @@ def sun_share(look: Look, place: Vec3, cosine: float) -> float:
     row = 0.5 * size - look.sun_scale * dot(offset, load_vec3(look.sun_up))
     depth = -dot(offset, load_vec3(look.sun_toward))
     # A slanting surface changes its depth within the samples: it must not shade itself.
-    slant = min(math.sqrt(1.0 - cosine * cosine) / max(cosine, 0.05), 6.0)
+    slant = min(math.sqrt(1.0 - cosine * cosine) / max(cosine, 0.05), 12.0)
     limit = depth - SHADOW_BIAS * (1.0 + slant) / look.sun_scale
     lit = 0.0
     for i in range(-1, 2):
