@@ -7,7 +7,7 @@ given along the axis and not vertex by vertex. World frame at rest: metres, +Y u
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -225,6 +225,21 @@ def limb(
         side,
         places,
     )
+
+
+def embossed(patch: Patch, spots: Sequence[tuple[float, float, float, float]]) -> Patch:
+    """Return a patch whose upper side is raised or sunk in round spots.
+
+    Args:
+        patch: a shape.
+        spots: x and z of the middle in plan, radius and rise there, m; a negative rise is a dent.
+    """
+    positions = patch.positions.copy()
+    for x, z, radius, rise in spots:
+        away = np.hypot(patch.positions[:, 0] - x, patch.positions[:, 2] - z) / radius
+        share = np.maximum(1.0 - away**2, 0.0) ** 2 * np.maximum(patch.height, 0.0)
+        positions[:, 1] += rise * share
+    return replace(patch, positions=positions)
 
 
 def mirrored(patch: Patch) -> Patch:
