@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from polypod.compute import kernel
-from polypod.ik.solve import fold_for_reach, hip_for, hip_strain, offset_from_hip
+from polypod.ik.aim import hip_for
+from polypod.ik.fold import fold_for_reach
+from polypod.ik.hip import hip_strain
+from polypod.ik.solve import offset_from_hip
 from polypod.ik.types import IkTable
 from polypod.math.vec3 import Vec3, dot, length, load_vec3, mix, normalized
 

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from polypod.ik.aim import hip_for, plane_frame, plane_normal
+from polypod.ik.fold import fold_for_reach
 from polypod.ik.hinges import Hinges, find_hinges, plan_direction
 from polypod.ik.reach import direction_strain, reach_shift
-from polypod.ik.solve import fold_for_reach, hip_for, plane_frame, plane_normal
 from polypod.ik.types import IkTable
 from polypod.math.quat import rotate
 from polypod.math.vec3 import Vec3, load_vec3
