@@ -116,6 +116,7 @@ def lift(
     stood: float = 1.0,
     minimum: int = 0,
     window: float = 0.5,
+    turn: float = 0.0,
 ) -> int:
     """Ask for the next foot of four whose sectors begin at 0, .1, .2 and .6, of extent .4."""
     swinging, holding = np.zeros(4, bool), np.zeros(4, bool)
@@ -123,7 +124,7 @@ def lift(
     holding[list(held)] = True
     start, extent = np.array([0.0, 0.1, 0.2, 0.6]), np.full(4, 0.4)
     return next_foot_to_lift(
-        needle, start, extent, swinging, np.full(4, stood), holding, minimum, window
+        needle, start, extent, swinging, np.full(4, stood), holding, minimum, window, turn
     )
 
 
@@ -148,6 +149,15 @@ def test_no_foot_lifts_that_would_leave_too_few_down() -> None:
     assert lift(0.15, minimum=4) == -1
     assert lift(0.15, in_swing=(3,), minimum=2) == 0
     assert lift(0.15, in_swing=(3,), minimum=3) == -1
+
+
+def test_a_foot_whose_sector_ends_in_this_step_counts_as_down_where_it_lands_after() -> None:
+    # Foot 3 swings over [.6, 1): at .02 it has just come to its end.
+    for turn, foot in ((0.0, -1), (0.01, -1), (0.03, 0), (0.5, 0)):
+        assert lift(0.02, in_swing=(3,), minimum=3, turn=turn) == foot
+    # One that still swings does not.
+    assert lift(0.98, in_swing=(3, 2), held=(1,), minimum=2, turn=0.5) == -1
+    assert lift(0.10, in_swing=(3,), minimum=4, turn=0.5) == -1
 
 
 def test_a_foot_that_just_landed_stands_first() -> None:

@@ -78,16 +78,6 @@ def progress_since_lift(needle: float, lift_phase: float, start: float, extent: 
 
 
 @kernel
-def feet_down_count(in_swing: BoolArray) -> int:
-    """Return how many feet stand."""
-    count = 0
-    for k in range(in_swing.shape[0]):
-        if not in_swing[k]:
-            count += 1
-    return count
-
-
-@kernel
 def minimum_feet_down(start: FloatArray, extent: FloatArray) -> int:
     """Return the least number of feet that a gait's disks ever leave standing.
 
@@ -114,6 +104,7 @@ def next_foot_to_lift(
     held: BoolArray,
     minimum_down: int,
     window: float,
+    turn: float = 0.0,
 ) -> int:
     """Return the foot that shall lift now, the one due for longest, or -1.
 
@@ -131,9 +122,17 @@ def next_foot_to_lift(
         held: [K] feet that must not lift in this step (no place found; the creature stops).
         minimum_down: least number of feet that must stay down.
         window: share of a sector in which a late lift is allowed.
+        turn: where the controller lands feet after it lifts others, how far the needle turned in
+            this step, cycles: feet whose sector ended in it count as down. With 0, feet that change
+            places all stand for a step.
     """
+    down = 0
+    for k in range(start.shape[0]):
+        since_end = wrap_phase(needle - start[k]) - extent[k]
+        if not in_swing[k] or 0.0 <= since_end < turn:
+            down += 1
     chosen = -1
-    if feet_down_count(in_swing) <= minimum_down:
+    if down <= minimum_down:
         return chosen
     longest_due = -1.0
     for k in range(start.shape[0]):
