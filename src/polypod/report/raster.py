@@ -116,17 +116,24 @@ class Scene:
 
 
 def corner_normals(positions: FloatArray, triangles: IntArray) -> FloatArray:
-    """Return unit normals [T, 3, 3] for each triangle's corners, smooth but across creases."""
+    """Return unit normals [T, 3, 3] for each triangle's corners, smooth but across creases.
+
+    A vertex's normal is the mean of its faces', each weighted by its angle there, so that how
+    faces are split into triangles does not matter.
+    """
     corners = positions[triangles]
-    face = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    face = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     # Vertices doubled for texture seams are one place.
     _, place = np.unique(np.round(positions, 9), axis=0, return_inverse=True)
     place = place.reshape(-1)
     total = np.zeros((int(place.max()) + 1, 3))
     for corner in range(3):
-        np.add.at(total, place[triangles[:, corner]], face)
+        one = _unit(corners[:, (corner + 1) % 3] - corners[:, corner])
+        other = _unit(corners[:, (corner + 2) % 3] - corners[:, corner])
+        angle = np.arccos(np.clip((one * other).sum(axis=1), -1.0, 1.0))
+        np.add.at(total, place[triangles[:, corner]], face * angle[:, None])
     smooth = _unit(total)[place[triangles]]
-    flat = np.broadcast_to(_unit(face)[:, None, :], smooth.shape)
+    flat = np.broadcast_to(face[:, None, :], smooth.shape)
     same = (smooth * flat).sum(axis=2, keepdims=True) > CREASE
     return np.where(same, smooth, flat)
 
