@@ -70,7 +70,7 @@ def run_part(
 
 
 def step_in_parts(world: World, dt: float, seconds: NDArray[np.float64]) -> None:
-    """Advance a world by `dt` in one thread, adding each part's time to `seconds` [4].
+    """Advance a world by `dt` in one thread, adding each part's processor time to `seconds` [4].
 
     Raises:
         ValueError: a needle turns so far in `dt` that World.step would take it in several steps.
@@ -82,11 +82,11 @@ def step_in_parts(world: World, dt: float, seconds: NDArray[np.float64]) -> None
                 raise ValueError(f"a frame of {dt} s is several steps")
         turn, pose = np.zeros(herd.count), np.zeros((herd.count, 7))
         for part in range(len(PARTS)):
-            began = time.perf_counter()
+            began = time.thread_time()
             run_part(
                 part, herd.count, dt, turn, pose, herd.kernel_state, herd.kernel_command,
                 herd.kernel_tables, herd.kernel_settings, world.kernel_environment,
                 herd.kernel_plan, herd.scratch(0),
             )  # fmt: skip
-            seconds[part] += time.perf_counter() - began
+            seconds[part] += time.thread_time() - began
     world.time += dt
