@@ -14,10 +14,11 @@ from polypod.body.support import body_rotation, feet_plane
 from polypod.command import FARTHEST, numbers_of
 from polypod.compute import kernel, over_creatures, thread_count
 from polypod.config import Settings
+from polypod.controller.lift import any_off_place, lift_feet
 from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.spawn import spawn
 from polypod.controller.steering import move_body, note_pose
-from polypod.controller.swing import any_off_place, lift_feet, replan_feet, shift_spacing
+from polypod.controller.swing import replan_feet, shift_spacing
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
+from polypod.controller.lift import any_off_place, lift_feet
 from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.steering import PlanPose, move_body, note_pose
-from polypod.controller.swing import any_off_place, lift_feet, replan_feet, shift_spacing
+from polypod.controller.swing import replan_feet, shift_spacing
 from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count
 from polypod.ik.skeleton import pose_joints
