@@ -7,13 +7,14 @@ to such a joint: creatures describe their middle and their left, and are mirror 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from polypod.morphology.builtin.curves import FloatArray
+from polypod.morphology.builtin.fusion import fused
 from polypod.morphology.builtin.shapes import IntArray, Patch, mirrored
 from polypod.rigs.author import Joint, Material, SkinnedSurface, author_glb
 
@@ -33,6 +34,13 @@ class BuiltIn:
     glb: bytes
     legs: tuple[str, ...]  # "HIP:FOOT" joint names, back to front, left before right in a row
     spine: tuple[str, ...]  # joint names from back to head; empty where the trunk is stiff
+
+
+class Piece(NamedTuple):
+    """A patch that was added, with its twin if it has one."""
+
+    material: Material
+    rows: tuple[int, ...]  # among the surfaces of that material
 
 
 class Paint(NamedTuple):
@@ -95,7 +103,7 @@ class Sculpture:
         material: Material = HIDE,
         blend: float = 0.3,
         both: bool = False,
-    ) -> None:
+    ) -> Piece:
         """Add a patch bound to one joint or along a chain of joints.
 
         Args:
@@ -107,11 +115,32 @@ class Sculpture:
             blend: part of the shorter of two neighbouring bones over which weight passes from one
                 to the other, on each side of the joint; at most 0.5.
             both: make a twin though no bone's name begins with "Left".
+
+        Returns:
+            what `fuse` knows the patch and its twin by.
         """
         names = (bones,) if isinstance(bones, str) else tuple(bones)
-        self._bind(patch, names, paint, material, blend)
+        rows = [self._bind(patch, names, paint, material, blend)]
         if both or any(name.startswith("Left") for name in names):
-            self._bind(mirrored(patch), tuple(map(_twin, names)), paint, material, blend)
+            twins = tuple(map(_twin, names))
+            rows.append(self._bind(mirrored(patch), twins, paint, material, blend))
+        return Piece(material, tuple(rows))
+
+    def fuse(self, trunk: Piece, limbs: Sequence[Piece], width: float) -> None:
+        """Let limbs, and their twins, grow out of the trunk without a seam.
+
+        Args:
+            trunk: a piece without a twin.
+            limbs: pieces of the same material.
+            width: m, how far from the seam the skin is changed.
+        """
+        surfaces = self._surfaces[trunk.material]
+        rows = [*trunk.rows, *(row for limb in limbs for row in limb.rows)]
+        first, *rest = (surfaces[row] for row in rows)
+        for row, grown in zip(rows, fused(first, rest, width, len(self._joints)), strict=True):
+            positions = np.round(grown.positions, DECIMALS) + 0.0
+            colours = np.round(grown.colours, 4)
+            surfaces[row] = replace(grown, positions=positions, colours=colours)
 
     def finish(self, legs: Sequence[str], spine: Sequence[str] = ()) -> BuiltIn:
         """Return the creature; `legs` are those of the left and the middle, back to front."""
@@ -138,7 +167,7 @@ class Sculpture:
 
     def _bind(
         self, patch: Patch, names: tuple[str, ...], paint: Paint, material: Material, blend: float
-    ) -> None:
+    ) -> int:
         joints, weights = self._weights(patch, names, blend)
         positions = np.round(patch.positions, DECIMALS) + 0.0
         positions[:, 1] = np.maximum(positions[:, 1], 0.0)  # nothing reaches into the ground
@@ -159,7 +188,9 @@ class Sculpture:
             triangles,
             0,
         )
-        self._surfaces.setdefault(material, []).append(surface)
+        surfaces = self._surfaces.setdefault(material, [])
+        surfaces.append(surface)
+        return len(surfaces) - 1
 
     def _weights(
         self, patch: Patch, names: tuple[str, ...], blend: float

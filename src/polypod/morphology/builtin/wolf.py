@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from polypod.morphology.builtin.sculpture import GLOSS, BuiltIn, Paint, Sculpture, plain
+from polypod.morphology.builtin.sculpture import GLOSS, BuiltIn, Paint, Piece, Sculpture, plain
 from polypod.morphology.builtin.shapes import body, ellipsoid, limb
 
 SADDLE, FUR, CREAM, TAN, INK = "#4b433c", "#85786a", "#d9cfbd", "#a28a6b", "#14110f"
@@ -104,10 +104,10 @@ FORE_PROFILE = (
     (0.0, 0.0),
     (0.08, 0.012, 0.026, 0.026),
     (0.25, 0.022, 0.046, 0.046),
-    (0.50, 0.030, 0.058, 0.062),
-    (0.80, 0.036, 0.062, 0.074),
-    (1.05, 0.040, 0.062, 0.082),
-    (1.30, 0.042, 0.058, 0.078),
+    (0.50, 0.033, 0.058, 0.062),
+    (0.80, 0.041, 0.062, 0.074),
+    (1.05, 0.045, 0.062, 0.082),
+    (1.30, 0.045, 0.058, 0.078),
     (1.60, 0.040, 0.048, 0.060),
     (1.85, 0.036, 0.039, 0.049),
     (2.02, 0.032, 0.034, 0.043),
@@ -122,7 +122,8 @@ FORE_PROFILE = (
 LEG_PAINT = Paint(((0.0, FUR), (1.0, FUR), (1.8, TAN), (3.0, CREAM)))
 FORE_PAINT = Paint(((0.0, SADDLE), (0.8, FUR), (2.0, TAN), (4.0, CREAM)))
 HAUNCH = (0.046, 0.580, -0.245)  # where the thigh's mass begins
-BLADE = (0.060, 0.592, 0.172)  # the upper end of the shoulder blade
+SEAM = 0.05  # how far around the roots of limbs the skin flows over, m
+BLADE = (0.044, 0.575, 0.178)  # the upper end of the shoulder blade
 
 
 def build() -> BuiltIn:
@@ -135,13 +136,14 @@ def build() -> BuiltIn:
     wolf.chain(tail, TAIL, "Pelvis", marker="TailTip")
     wolf.chain(HIND_NAMES, HIND_LEG, "Pelvis")
     wolf.chain(FORE_NAMES, FORE_LEG, "Chest")
-    wolf.add(body(HIDE_SECTIONS, rings=56, sides=20), names, HIDE_PAINT, blend=0.45)
-    _tail(wolf, tail)
+    hide = wolf.add(body(HIDE_SECTIONS, rings=64, sides=24), names, HIDE_PAINT, blend=0.45)
+    brush = _tail(wolf, tail)
     _head(wolf)
-    hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=12)
-    wolf.add(hind, ("Pelvis", *HIND_NAMES), LEG_PAINT)
-    fore = limb((BLADE, *FORE_LEG), FORE_PROFILE, sides=12, corner=0.4)
-    wolf.add(fore, ("Chest", *FORE_NAMES), FORE_PAINT)
+    hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=16)
+    hind_leg = wolf.add(hind, ("Pelvis", *HIND_NAMES), LEG_PAINT)
+    fore = limb((BLADE, *FORE_LEG), FORE_PROFILE, sides=16, corner=0.4)
+    fore_leg = wolf.add(fore, ("Chest", *FORE_NAMES), FORE_PAINT)
+    wolf.fuse(hide, (brush, hind_leg, fore_leg), SEAM)
     _paw(wolf, HIND_NAMES[-1], 0.94)
     _paw(wolf, FORE_NAMES[-1], 1.0)
     return wolf.finish(
@@ -149,7 +151,7 @@ def build() -> BuiltIn:
     )
 
 
-def _tail(wolf: Sculpture, names: list[str]) -> None:
+def _tail(wolf: Sculpture, names: list[str]) -> Piece:
     """Add the brush."""
     brush = limb(
         (RUMP, *TAIL),
@@ -176,7 +178,7 @@ def _tail(wolf: Sculpture, names: list[str]) -> None:
         TAN,
         belly_edge=-0.5,
     )
-    wolf.add(brush, ("Pelvis", *names, "TailTip"), paint)
+    return wolf.add(brush, ("Pelvis", *names, "TailTip"), paint)
 
 
 def _head(wolf: Sculpture) -> None:
