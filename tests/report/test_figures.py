@@ -14,7 +14,7 @@ from synthetic import APEX, DUTY, LEG, PHASES, SPEED, STRIDE_S
 
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
-from polypod.report.arrays import multiply_all, rotate_all
+from polypod.report.arrays import angles_of, conjugate_all, multiply_all, rotate_all
 from polypod.report.figures import measure, measure_played, write_report
 from polypod.report.verdict import failures, format_table, remarks
 
@@ -410,3 +410,21 @@ def test_figures_do_not_depend_on_size_or_place():
     for name in here:
         if name.endswith(("_of_leg", "_share", "_deg", "_variation", "leg_stretch", "duty")):
             assert there[name] == pytest.approx(here[name], rel=1e-6, abs=1e-9), name
+
+
+def test_limit_excess_is_the_bend_beyond_the_range():
+    """With the knees' ranges cut to +-0.05 rad about the rest, the widest bend exceeds by the rest.
+
+    The bend is the angle of the lower bone's rotation as seen from the upper bone.
+    """
+    recording = synthetic.walk()
+    legs = recording.morphology.legs
+    upper, lower = (recording.joint_rotation[:, legs.joint[:, i]] for i in (0, 1))
+    bend = angles_of(multiply_all(conjugate_all(upper), lower)).max()
+    limit = legs.bend_limit.copy()
+    limit[:, 1] = (-0.05, 0.05)
+    body = dataclasses.replace(recording.morphology, legs=legs._replace(bend_limit=limit))
+    figures = figures_of(dataclasses.replace(recording, morphology=body))
+    assert bend > 0.1
+    assert figures["joint_limit_excess_deg"] == pytest.approx(math.degrees(bend - 0.05), rel=1e-6)
+    assert any("beyond its limit" in sentence for sentence in failures(figures))

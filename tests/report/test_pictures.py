@@ -15,7 +15,7 @@ from polypod.environment.obstacles import Obstacle
 from polypod.errors import SettingError
 from polypod.report.captions import length_text, round_length
 from polypod.report.plots import write_plots
-from polypod.report.raster import Scene, camera_along, corner_normals, render
+from polypod.report.raster import PAPER, SOIL, Scene, camera_along, corner_normals, render
 from polypod.report.scenery import BOX_TRIANGLES, foot_colours, obstacle_surface
 from polypod.report.shading import PLAIN, fill_triangles
 from polypod.report.skin import flesh_of, pose
@@ -29,7 +29,7 @@ def drawn(*triangles):
     depth = np.full((20, 20), np.inf)
     owner = np.full((20, 20), -1, np.int64)
     share = np.zeros((20, 20, 2))
-    fill_triangles(np.array(triangles, float), -math.inf, depth, owner, share)
+    fill_triangles(np.array(triangles, float), -math.inf, 0.0, depth, owner, share)
     return depth, owner, share
 
 
@@ -217,3 +217,33 @@ def test_plots_are_written(tmp_path):
 def test_scale_bars_are_round(metres, rounded, text):
     assert round_length(metres) == pytest.approx(rounded)
     assert length_text(round_length(metres)) == text
+
+
+def test_of_two_surfaces_in_one_plane_the_first_stays():
+    """The second is nearer by less than the tie, as rounding makes it."""
+    depth, owner = np.full((4, 4), np.inf), np.full((4, 4), -1, np.int64)
+    plane = np.array([[[-9, -9, 1], [30, -9, 1], [-9, 30, 1]]] * 2, float)
+    plane[1, :, 2] -= 1e-6
+    fill_triangles(plane, -math.inf, 1e-4, depth, owner, np.zeros((4, 4, 2)))
+    assert (owner == 0).all()
+
+
+def test_cut_ground_is_soil_and_the_sky_above_it_is_not():
+    """A floor seen at 30 degrees is cut one metre before the middle; a bar hangs over its back."""
+    scene = Scene()
+    floor = np.array([[-9, 0, -9], [9, 0, -9], [9, 0, 9], [-9, 0, 9]], float)
+    faces = np.array([[0, 2, 1], [0, 3, 2]])
+    scene.add(floor * 0.5, faces, np.array([0.2, 0.9, 0.2]), PLAIN)
+    bar = np.array([[0, 7, -9], [0, 7, 9], [0, 7.5, 9], [0, 7.5, -9]], float)
+    scene.add(bar, np.array([[0, 1, 2], [0, 2, 3]]), np.array([0.2, 0.2, 0.9]), PLAIN)
+    camera = camera_along(AHEAD, 0.0, math.radians(30.0), np.zeros(3), 10.0, (20, 160))
+    picture = render(scene, camera, grid=1.0, nearest=-1.0, oversampling=1)
+    # Depth on the floor changes by cos 30 a metre, its row by 10 sin 30: the cut is at row 85.8.
+    column = picture[:, 10].astype(int)
+    paper, soil = np.round(255 * PAPER), np.round(255 * SOIL)
+    # The bar is at height 7 to 7.5, rows 80 - 10 * 7.5 cos 30 = 15 to 19.4; sky is below it.
+    assert column[17].argmax() == 2
+    assert np.abs(column[40] - paper).max() <= 1
+    assert column[84].argmax() == 1
+    assert np.abs(column[87] - soil).max() <= 1
+    assert np.abs(column[159] - soil).max() <= 1

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from polypod.ik.limits import limit_excess
+from polypod.ik.table import build_ik_table
 from polypod.report.arrays import FloatArray, angles_of, conjugate_all, multiply_all, rotate_all
 from polypod.report.record import Recording, bones
 
@@ -17,10 +19,11 @@ CALM_TRAVEL = 0.1
 
 
 def joint_figures(recording: Recording) -> dict[str, object]:
-    """Return the figures of joints: the largest turn, bones' variation, stretch, jerk."""
+    """Return the figures of joints: turns, bones, limits, stretch, jerk, crossings."""
     return {
         **_turn_figures(recording),
         "bone_variation": _bone_variation(recording),
+        "joint_limit_excess_deg": _limit_excess(recording),
         "leg_stretch": _stretch(recording),
         "joint_jerk_m_s3": _jerk(recording.joint_position, recording.time),
         **_crossing_figures(recording),
@@ -81,6 +84,20 @@ def _bone_variation(recording: Recording) -> float | None:
     ends = recording.joint_position
     length = np.linalg.norm(ends[:, pairs[:, 0]] - ends[:, pairs[:, 1]], axis=2)
     return float((np.ptp(length, axis=0) / length.mean(axis=0)).max())
+
+
+def _limit_excess(recording: Recording) -> float:
+    """Return the most that any joint of a leg is beyond its limits in any frame, degrees."""
+    legs = recording.morphology.legs
+    table = build_ik_table(legs)
+    unturned = conjugate_all(recording.body_rotation)[:, None]
+    most = 0.0
+    for leg, count in enumerate(legs.joint_count):
+        rows = legs.joint[leg, :count]
+        rotation_body = multiply_all(unturned, recording.joint_rotation[:, rows])
+        for turned in rotation_body:
+            most = max(most, limit_excess(table, leg, turned))
+    return float(np.degrees(most))
 
 
 def _stretch(recording: Recording) -> float:

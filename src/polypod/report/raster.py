@@ -22,6 +22,7 @@ SOIL = np.array([0.60, 0.56, 0.50])  # sRGB of a cut through the ground
 PAPER = np.array([0.955, 0.96, 0.965])  # sRGB of the background
 SUN = np.array([0.34, 0.86, -0.38])  # from the scene toward the sun, camera right, up, toward
 SHADOW_PIXELS = 1400
+TIE = 0.05  # pixels: a plate's top that lies in the ground is ground
 CREASE = math.cos(math.radians(42.0))  # surfaces that meet more sharply show an edge
 
 
@@ -159,11 +160,15 @@ def render(
     """
     large = camera.enlarged(oversampling)
     corners = np.ascontiguousarray(np.concatenate(scene.corners))
-    depth, owner, share = _draw(large.project(corners), large.width, large.height, nearest)
+    depth, owner, share = _draw(
+        large.project(corners), large.width, large.height, nearest, TIE / large.pixels_per_metre
+    )
     picture = np.empty((large.height, large.width, 3))
     picture[:] = linear_from_srgb(PAPER)
     if nearest > -math.inf:
-        below = np.logical_or.accumulate(owner >= 0, axis=0)
+        seen = owner >= 0
+        # Nothing is seen further down either, and something is further up.
+        below = ~np.logical_or.accumulate(seen[::-1], axis=0)[::-1] & seen.any(axis=0)
         picture[below] = linear_from_srgb(SOIL)
     shade_pixels(
         corners,
@@ -181,12 +186,12 @@ def render(
 
 
 def _draw(
-    corners: FloatArray, width: int, height: int, nearest: float
+    corners: FloatArray, width: int, height: int, nearest: float, tie: float
 ) -> tuple[FloatArray, IntArray, FloatArray]:
     depth = np.full((height, width), np.inf)
     owner = np.full((height, width), -1, np.int64)
     share = np.zeros((height, width, 2))
-    fill_triangles(np.ascontiguousarray(corners), nearest, depth, owner, share)
+    fill_triangles(np.ascontiguousarray(corners), nearest, tie, depth, owner, share)
     return depth, owner, share
 
 
@@ -202,19 +207,20 @@ def _look(scene: Scene, camera: Camera, grid: float, fade: tuple[float, float]) 
     ]
     # The sun looks at what the picture shows; what lies beyond it may cast no shadow there.
     half = np.array([0.5 * camera.width, 0.5 * camera.height]) / camera.pixels_per_metre
-    corners = np.concatenate(solid)
+    corners = np.concatenate([np.zeros((0, 3)), *solid])
     offset = corners - camera.centre
     shown = (np.abs(offset @ camera.right) < 1.2 * half[0]) & (
         np.abs(offset @ camera.up) < 1.2 * half[1]
     )
-    seen = corners[shown] if shown.sum() > 2 else corners
+    # Without anything solid the map is empty: all is in the sun.
+    seen = corners[shown] if shown.any() else camera.centre[None]
     plan = np.stack([seen @ right, seen @ up], axis=1)
     least, most = plan.min(axis=0), plan.max(axis=0)
     middle = 0.5 * (least + most)
     size = max(2, min(SHADOW_PIXELS, camera.width))
     scale = 0.98 * size / max(float((most - least).max()), 1e-12)
     view = Camera(middle[0] * right + middle[1] * up, right, up, toward, scale, size, size)
-    depth, _, _ = _draw(view.project(corners.reshape(-1, 3, 3)), size, size, -math.inf)
+    depth, _, _ = _draw(view.project(corners.reshape(-1, 3, 3)), size, size, -math.inf, 0.0)
     begin, end = fade if math.isfinite(fade[1]) else (1e30, 2e30)
     return Look(
         camera.toward,

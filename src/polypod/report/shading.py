@@ -43,12 +43,17 @@ class Look(NamedTuple):
 
 @kernel
 def fill_triangles(
-    corner: FloatArray, nearest: float, depth: FloatArray, owner: IntArray, share: FloatArray
+    corner: FloatArray,
+    nearest: float,
+    tie: float,
+    depth: FloatArray,
+    owner: IntArray,
+    share: FloatArray,
 ) -> None:
     """Draw triangles [T, 3, 3] (column, row, depth) into depth [H, W], owner [H, W], share.
 
     `share` [H, W, 2] are the weights of a pixel's first two corners. What is nearer than `nearest`
-    is cut away.
+    is cut away. Of surfaces closer together than `tie` the first one stays.
     """
     height, width = depth.shape
     for t in range(corner.shape[0]):
@@ -72,7 +77,7 @@ def fill_triangles(
                 if a < 0.0 or b < 0.0 or c < 0.0:
                     continue
                 d = a * ad + b * bd + c * cd
-                if nearest <= d < depth[row, column]:
+                if nearest <= d < depth[row, column] - tie:
                     depth[row, column] = d
                     owner[row, column] = t
                     share[row, column, 0] = a
@@ -88,7 +93,7 @@ def sun_share(look: Look, place: Vec3, cosine: float) -> float:
     row = 0.5 * size - look.sun_scale * dot(offset, load_vec3(look.sun_up))
     depth = -dot(offset, load_vec3(look.sun_toward))
     # A slanting surface changes its depth within the samples: it must not shade itself.
-    slant = min(math.sqrt(1.0 - cosine * cosine) / max(cosine, 0.05), 12.0)
+    slant = min(math.sqrt(1.0 - cosine * cosine) / max(cosine, 0.02), 40.0)
     limit = depth - SHADOW_BIAS * (1.0 + slant) / look.sun_scale
     lit = 0.0
     for i in range(-1, 2):
