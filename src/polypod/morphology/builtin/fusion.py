@@ -20,6 +20,7 @@ from polypod.rigs.author import SkinnedSurface
 IntArray = NDArray[np.int64]
 
 INFLUENCES = 4
+LEAST_WEIGHT = 0.01  # less is not felt, and a tie of two such could favour one side
 
 
 class _Meeting(NamedTuple):
@@ -123,7 +124,7 @@ def _dense(surface: SkinnedSurface, joints: int) -> FloatArray:
 
 def _strongest(weight: FloatArray) -> tuple[IntArray, FloatArray]:
     """Return the joints [V, 4] with most weight, and the weights [V, 4] shared among them."""
-    rounded = np.round(weight, 4)
+    rounded = np.where(weight < LEAST_WEIGHT, 0.0, np.round(weight, 4))
     rows = np.argsort(-rounded, axis=1, kind="stable")[:, :INFLUENCES]
     shares = np.take_along_axis(rounded, rows, axis=1)
     shares /= shares.sum(axis=1, keepdims=True)

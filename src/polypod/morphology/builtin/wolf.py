@@ -136,12 +136,12 @@ def build() -> BuiltIn:
     wolf.chain(tail, TAIL, "Pelvis", marker="TailTip")
     wolf.chain(HIND_NAMES, HIND_LEG, "Pelvis")
     wolf.chain(FORE_NAMES, FORE_LEG, "Chest")
-    hide = wolf.add(body(HIDE_SECTIONS, rings=64, sides=24), names, HIDE_PAINT, blend=0.45)
+    hide = wolf.add(body(HIDE_SECTIONS, rings=64, sides=26), names, HIDE_PAINT, blend=0.45)
     brush = _tail(wolf, tail)
     _head(wolf)
-    hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=16)
+    hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=14)
     hind_leg = wolf.add(hind, ("Pelvis", *HIND_NAMES), LEG_PAINT)
-    fore = limb((BLADE, *FORE_LEG), FORE_PROFILE, sides=16, corner=0.4)
+    fore = limb((BLADE, *FORE_LEG), FORE_PROFILE, sides=14, corner=0.4)
     fore_leg = wolf.add(fore, ("Chest", *FORE_NAMES), FORE_PAINT)
     wolf.fuse(hide, (brush, hind_leg, fore_leg), SEAM)
     _paw(wolf, HIND_NAMES[-1], 0.94)
@@ -170,7 +170,7 @@ def _tail(wolf: Sculpture, names: list[str]) -> Piece:
             (5.8, 0.017),
             (6.0, 0.0),
         ),
-        sides=12,
+        sides=14,
         side=(-1.0, 0.0, 0.0),
     )
     paint = Paint(
