@@ -13,9 +13,9 @@ RUST, MAHOGANY, PITCH, AMBER, INK = "#8a3a1c", "#5a2413", "#22140f", "#b0683a", 
 # Leg, front to back: hip x, z; foot's heading from +Z toward +X in degrees and distance from the
 # hip in plan; length relative to the segments below. All metres.
 LEGS = (
-    (0.040, 0.070, 48.0, 0.270, 1.02),
-    (0.044, 0.000, 90.0, 0.290, 1.00),
-    (0.040, -0.070, 134.0, 0.290, 1.08),
+    (0.040, 0.084, 47.0, 0.293, 1.02),
+    (0.044, 0.000, 90.0, 0.300, 1.00),
+    (0.040, -0.084, 136.0, 0.318, 1.10),
 )
 HIP_HEIGHT = 0.25
 SEGMENTS = (0.045, 0.170, 0.165, 0.130)  # coxa with trochanter, femur, tibia, tarsus

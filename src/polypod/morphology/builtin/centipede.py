@@ -15,9 +15,9 @@ CHESTNUT, UMBER, TEAL, HONEY, RED, INK = (
 PAIRS = 20
 PITCH = 0.064  # m, from a segment to the next
 HIP_HEIGHT, CENTRE_HEIGHT = 0.08, 0.090
-FOOT_DISTANCE = 0.102  # m in plan, from the hip
-SEGMENTS = (0.018, 0.050, 0.048, 0.040)  # coxa with trochanter, prefemur with femur, tibia, tarsus
-BENDS = (-42.0, 88.0, 20.0)
+FOOT_DISTANCE = 0.095  # m in plan, from the hip
+SEGMENTS = (0.016, 0.052, 0.050, 0.039)  # coxa with trochanter, prefemur with femur, tibia, tarsus
+BENDS = (-38.0, 92.0, 16.0)
 SEGMENT_NAMES = ("Coxa", "Femur", "Tibia", "Tarsus")
 LEG_PROFILE = (
     (0.0, 0.0090),
@@ -86,7 +86,7 @@ def _leg(centipede: Sculpture, number: int, z: float) -> None:
     """Add the left leg of a segment; legs fan out, and are longer toward the tail."""
     share = (number - 1.0) / (PAIRS - 1.0)
     turn = np.radians(64.0 + 54.0 * share)
-    length = 0.96 + 0.14 * share**2
+    length = 0.98 + 0.12 * share**2
     hip = np.array([0.036 * _width(number), HIP_HEIGHT, z])
     out = np.array([np.sin(turn), 0.0, np.cos(turn)])
     foot = hip * (1.0, 0.0, 1.0) + FOOT_DISTANCE * length * out

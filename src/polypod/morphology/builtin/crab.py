@@ -16,10 +16,10 @@ BRICK, CORAL, OCHRE, CREAM, UMBER, INK = (
 # Leg, front to back: hip x, z; foot's heading from +Z toward +X in degrees and distance from the
 # hip in plan; length relative to the segments below. All metres.
 LEGS = (
-    (0.140, 0.046, 66.0, 0.285, 0.98),
-    (0.148, 0.008, 81.0, 0.310, 1.05),
-    (0.146, -0.030, 98.0, 0.305, 1.04),
-    (0.132, -0.066, 118.0, 0.270, 0.94),
+    (0.140, 0.052, 53.0, 0.300, 1.02),
+    (0.150, 0.013, 77.0, 0.305, 1.02),
+    (0.148, -0.030, 103.0, 0.305, 1.02),
+    (0.132, -0.072, 131.0, 0.300, 1.02),
 )
 HIP_HEIGHT = 0.25
 SEGMENTS = (0.035, 0.165, 0.145, 0.160)  # coxa, merus, carpus with propodus, dactyl
@@ -162,15 +162,15 @@ def _claw(crab: Sculpture) -> None:
     """Add the left claw: arm, wrist, swollen hand with a fixed finger, and the moving finger."""
     points = np.array(
         [
-            (0.104, 0.250, 0.084),
-            (0.186, 0.272, 0.150),
-            (0.178, 0.248, 0.206),
-            (0.104, 0.222, 0.276),
+            (0.090, 0.254, 0.062),
+            (0.160, 0.284, 0.144),
+            (0.160, 0.260, 0.204),
+            (0.090, 0.232, 0.290),
         ]
     )
     names = ("LeftClawArm", "LeftClawWrist", "LeftClawHand")
     crab.chain(names, points, "Body")
-    crab.joint("LeftClawFinger", (0.112, 0.246, 0.268), "LeftClawHand")
+    crab.joint("LeftClawFinger", (0.104, 0.258, 0.274), "LeftClawHand")
     paint = Paint(((0.0, BRICK), (2.0, CORAL), (3.0, OCHRE)), CREAM, -0.6)
     arm = limb(
         points[:3],
@@ -189,18 +189,18 @@ def _claw(crab: Sculpture) -> None:
     crab.add(arm, names, paint, SHELL, blend=0.15)
     hand = body(
         (
-            (0.184, 0.250, 0.198, 0.0),
-            (0.176, 0.248, 0.210, 0.021, 0.022, 0.022),
-            (0.154, 0.242, 0.232, 0.034, 0.042, 0.038),
-            (0.126, 0.234, 0.256, 0.034, 0.044, 0.040),
-            (0.100, 0.222, 0.278, 0.026, 0.026, 0.028),
-            (0.076, 0.212, 0.300, 0.017, 0.016, 0.020),
-            (0.048, 0.212, 0.320, 0.011, 0.010, 0.013),
-            (0.022, 0.222, 0.330, 0.0),
+            (0.166, 0.262, 0.196, 0.0),
+            (0.158, 0.260, 0.210, 0.021, 0.022, 0.022),
+            (0.140, 0.254, 0.236, 0.034, 0.042, 0.038),
+            (0.116, 0.246, 0.262, 0.034, 0.044, 0.040),
+            (0.094, 0.234, 0.286, 0.026, 0.026, 0.028),
+            (0.074, 0.224, 0.308, 0.017, 0.016, 0.020),
+            (0.052, 0.223, 0.330, 0.011, 0.010, 0.013),
+            (0.032, 0.232, 0.343, 0.0),
         ),
         rings=16,
         sides=12,
-        side=(0.62, 0.0, 0.78),
+        side=(0.76, 0.0, 0.65),
         pointed=True,
     )
     tip = Paint(
@@ -209,20 +209,20 @@ def _claw(crab: Sculpture) -> None:
     crab.add(hand, "LeftClawHand", tip, SHELL)
     finger = limb(
         [
-            (0.122, 0.250, 0.256),
-            (0.088, 0.268, 0.292),
-            (0.048, 0.260, 0.322),
-            (0.022, 0.232, 0.334),
+            (0.112, 0.262, 0.260),
+            (0.084, 0.280, 0.300),
+            (0.052, 0.272, 0.333),
+            (0.032, 0.243, 0.346),
         ],
         ((0.0, 0.017, 0.020), (0.8, 0.015, 0.018), (1.6, 0.011, 0.012), (2.4, 0.0075), (3.0, 0.0)),
         sides=10,
-        side=(0.62, 0.0, 0.78),
+        side=(0.76, 0.0, 0.65),
     )
     jaw = Paint(((0.0, CORAL), (1.2, OCHRE), (2.3, CREAM), (3.0, UMBER)))
     crab.add(finger, "LeftClawFinger", jaw, SHELL)
     for share in (0.2, 0.45, 0.7):
-        low = np.array([0.078, 0.222, 0.297]) + share * np.array([-0.046, 0.000, 0.028])
-        high = np.array([0.078, 0.254, 0.299]) + share * np.array([-0.046, -0.010, 0.028])
+        low = np.array([0.076, 0.234, 0.306]) + share * np.array([-0.040, 0.000, 0.034])
+        high = np.array([0.076, 0.266, 0.308]) + share * np.array([-0.040, -0.010, 0.034])
         for bone, root, rise in (("LeftClawHand", low, 0.015), ("LeftClawFinger", high, -0.014)):
             tooth = limb([root, root + rise * UP], ((0.0, 0.0065), (1.0, 0.0)), sides=5)
             crab.add(tooth, bone, plain(CREAM), SHELL)
