@@ -27,7 +27,7 @@ from polypod.errors import SettingError
 class Settings:
     """How a walk is controlled; everything a user may tune and no morphology implies."""
 
-    acceleration: float = 1.2
+    acceleration: float = 1.6
     """Share of the speed asked for that is gained in a gait cycle."""
 
     turn_rate: float = 0.35

@@ -27,6 +27,8 @@ LEVEL_UPRIGHT = 0.5
 LEVEL_SPRAWLING = 0.15
 # A sprawler's feet go round what its body passes: the part of its track that is kept free.
 SPRAWLING_TRACK = 0.5
+# Part of what a leg can fold in stance that a step on level ground may take.
+FOLDING = 0.4
 
 
 class Scratch(NamedTuple):
@@ -72,9 +74,17 @@ def make_tables(morphology: Morphology) -> HerdTables:
         pendulum_time=math.sqrt(leg_length / GRAVITY),
         tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
         track=track * (1.0 if upright else SPRAWLING_TRACK),
-        level_weight=LEVEL_UPRIGHT if upright else LEVEL_SPRAWLING,
+        # Two feet do not tell the slope of the ground ahead, nor what is level on it.
+        level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,
         upright=upright,
     )
+
+
+def folding_room(tables: HerdTables) -> float:
+    """Return how far every leg can still fold in stance, metres: what a crouched leg steps with."""
+    ik = tables.ik
+    reach = np.linalg.norm(ik.effector_stance - ik.hip_rest, axis=1)
+    return max(0.0, float(np.min(reach - ik.shortest)))
 
 
 class Herd:
@@ -97,7 +107,9 @@ class Herd:
         self.state = make_state(count, feet, joints)
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
-        self.command.step_height = settings.step_height * self.tables.leg_length
+        self.command.step_height = min(
+            settings.step_height * self.tables.leg_length, FOLDING * folding_room(self.tables)
+        )
         # What kernels take: the same arrays, by reference.
         self.kernel_tables = by_reference(self.tables)
         self.kernel_state = by_reference(self.state)

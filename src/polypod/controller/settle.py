@@ -10,11 +10,14 @@ from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.environment.table import is_forbidden, surface
-from polypod.math.quat import Quat, load_quat, slerp, store_quat
+from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
+# The body rises or sinks at most so many leg lengths a pendulum time, and turns so many radians.
+FASTEST_RISE = 0.4
+FASTEST_TILT = 0.8
 # A frame's chord is looked at in so many places, and is halved so often.
 CHORD_SAMPLES = 8
 SHORTER = 4
@@ -100,6 +103,12 @@ def settle_body(
     before = load_vec3(state.position[c])
     turn_before = load_quat(state.rotation[c])
     turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    # A body that was held back does not jump to where it would be by now.
+    pendulum = tables.pendulum_time
+    most = FASTEST_RISE * tables.leg_length / pendulum * dt
+    height = min(before.y + most, max(before.y - most, height))
+    angle = angle_of(turn * conjugate(turn_before))
+    turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
     wished = Vec3(pose.x, height, pose.z)
     wish_feet(c, dt, state, env, scratch)
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
