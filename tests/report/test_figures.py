@@ -36,6 +36,7 @@ def faultless():
         commanded_distance_m=SPEED * seconds,
         gait_duty=np.full(6, DUTY),
         gait_phase=PHASES,
+        joint_limits=True,
     )
 
 
@@ -424,7 +425,7 @@ def test_limit_excess_is_the_bend_beyond_the_range():
     limit = legs.bend_limit.copy()
     limit[:, 1] = (-0.05, 0.05)
     body = dataclasses.replace(recording.morphology, legs=legs._replace(bend_limit=limit))
-    figures = figures_of(dataclasses.replace(recording, morphology=body))
+    figures = figures_of(dataclasses.replace(recording, morphology=body), joint_limits=True)
     assert bend > 0.1
     assert figures["joint_limit_excess_deg"] == pytest.approx(math.degrees(bend - 0.05), rel=1e-6)
     assert any("beyond its limit" in sentence for sentence in failures(figures))

@@ -243,7 +243,7 @@ def test_cut_ground_is_soil_and_the_sky_above_it_is_not():
     paper, soil = np.round(255 * PAPER), np.round(255 * SOIL)
     # The bar is at height 7 to 7.5, rows 80 - 10 * 7.5 cos 30 = 15 to 19.4; sky is below it.
     assert column[17].argmax() == 2
-    assert np.abs(column[40] - paper).max() <= 1
+    assert np.abs(column[40] - paper).max() <= 3  # bright tones are rolled off a little
     assert column[84].argmax() == 1
     assert np.abs(column[87] - soil).max() <= 1
     assert np.abs(column[159] - soil).max() <= 1

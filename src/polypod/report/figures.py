@@ -30,6 +30,7 @@ def measure(
     commanded_distance_m: float | None = None,
     gait_duty: ArrayLike | None = None,
     gait_phase: ArrayLike | None = None,
+    joint_limits: bool = False,
 ) -> dict[str, object]:
     """Return all figures of a walk.
 
@@ -39,6 +40,8 @@ def measure(
         commanded_distance_m: speed times time as asked for.
         gait_duty: [K] the duty factors that the gait asks for.
         gait_phase: [K] touchdowns that the gait asks for, fractions of the cycle.
+        joint_limits: also judge every joint's limits in every frame (`joint_limit_excess_deg`),
+            which takes many times as long as all the rest.
 
     Returns:
         Numbers, texts, lists of numbers and None, by name, in the order in which they read best.
@@ -53,7 +56,7 @@ def measure(
         **stance_figures(recording, ground),
         **swing_figures(recording, ground),
         **forbidden_figures(recording, ground),
-        **joint_figures(recording),
+        **joint_figures(recording, joint_limits),
         **stride_figures(recording, gait_duty, gait_phase),
         **trunk_figures(recording, ground),
     }

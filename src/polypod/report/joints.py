@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 CALM_TRAVEL = 0.1
 
 
-def joint_figures(recording: Recording) -> dict[str, object]:
+def joint_figures(recording: Recording, joint_limits: bool) -> dict[str, object]:
     """Return the figures of joints: turns, bones, limits, stretch, jerk, crossings."""
     return {
         **_turn_figures(recording),
         "bone_variation": _bone_variation(recording),
-        "joint_limit_excess_deg": _limit_excess(recording),
+        **({"joint_limit_excess_deg": _limit_excess(recording)} if joint_limits else {}),
         "leg_stretch": _stretch(recording),
         "joint_jerk_m_s3": _jerk(recording.joint_position, recording.time),
         **_crossing_figures(recording),
