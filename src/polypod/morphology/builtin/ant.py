@@ -13,11 +13,12 @@ RUST, MAHOGANY, PITCH, AMBER, INK = "#8a3a1c", "#5a2413", "#22140f", "#b0683a", 
 # Leg, front to back: hip x, z; foot's heading from +Z toward +X in degrees and distance from the
 # hip in plan; length relative to the segments below. All metres.
 LEGS = (
-    (0.040, 0.084, 47.0, 0.293, 1.02),
-    (0.044, 0.000, 90.0, 0.300, 1.00),
-    (0.040, -0.084, 136.0, 0.318, 1.10),
+    (0.034, 0.082, 47.0, 0.300, 1.02),
+    (0.036, 0.004, 90.0, 0.306, 1.00),
+    (0.034, -0.080, 136.0, 0.324, 1.10),
 )
 HIP_HEIGHT = 0.25
+SOCKET = np.array([-0.010, 0.008, 0.0])  # of the coxa, from the hip, m
 SEGMENTS = (0.045, 0.170, 0.165, 0.130)  # coxa with trochanter, femur, tibia, tarsus
 BENDS = (-55.0, 100.0, -10.0)
 SEGMENT_NAMES = ("Coxa", "Femur", "Tibia", "Tarsus")
@@ -65,6 +66,8 @@ def build() -> BuiltIn:
         points = folded_leg(hip, foot, [scale * length for length in SEGMENTS], BENDS)
         names = [f"LeftLeg{number}{segment}" for segment in SEGMENT_NAMES]
         ant.chain(names, points, "Body", marker=f"LeftLeg{number}Foot")
+        socket = ellipsoid(hip + SOCKET, (0.0, 0.0, 0.024), 0.024, 0.020, 7, 10)
+        ant.add(socket, "Body", plain(MAHOGANY), SHELL, both=True)
         patch = limb(points, LEG_PROFILE, sides=8, side=outward_side(points), corner=0.12)
         ant.add(patch, (*names, f"LeftLeg{number}Foot"), LEG_PAINT, SHELL, blend=0.12)
     return ant.finish([f"LeftLeg{k}Coxa:LeftLeg{k}Foot" for k in (3, 2, 1)])
