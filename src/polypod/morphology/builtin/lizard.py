@@ -33,33 +33,44 @@ LEGS = (
     ("LeftFore", 0.044, 0.165, 76.0, 0.090, (0.078, 0.074)),
 )
 BEND = (84.0,)
+SEAM = 0.018  # how far around the roots of limbs the skin flows over, m
 
 TRUNK_SECTIONS = (
-    (0.0, 0.118, -0.300, 0.024, 0.024, 0.026),
-    (0.0, 0.122, -0.200, 0.046, 0.030, 0.036),
+    (0.0, 0.119, -0.285, 0.0),
+    (0.0, 0.119, -0.262, 0.024, 0.020, 0.024),
+    (0.0, 0.121, -0.225, 0.040, 0.028, 0.033),
+    (0.0, 0.122, -0.180, 0.047, 0.031, 0.037),
     (0.0, 0.124, -0.110, 0.056, 0.034, 0.046),
-    (0.0, 0.124, 0.000, 0.066, 0.036, 0.054),
-    (0.0, 0.124, 0.100, 0.060, 0.034, 0.048),
-    (0.0, 0.124, 0.175, 0.050, 0.032, 0.038),
-    (0.0, 0.128, 0.245, 0.035, 0.027, 0.030),
-    (0.0, 0.132, 0.290, 0.038, 0.024, 0.026),
-    (0.0, 0.134, 0.325, 0.045, 0.024, 0.020),
-    (0.0, 0.130, 0.370, 0.034, 0.018, 0.015),
-    (0.0, 0.124, 0.410, 0.018, 0.011, 0.011),
-    (0.0, 0.123, 0.418, 0.0),
+    (0.0, 0.124, -0.010, 0.067, 0.036, 0.054),
+    (0.0, 0.124, 0.085, 0.062, 0.035, 0.049),
+    (0.0, 0.124, 0.160, 0.051, 0.032, 0.039),
+    (0.0, 0.126, 0.215, 0.037, 0.027, 0.031),
+    (0.0, 0.129, 0.255, 0.036, 0.025, 0.028),
+    (0.0, 0.132, 0.290, 0.045, 0.024, 0.025),
+    (0.0, 0.134, 0.325, 0.044, 0.024, 0.019),
+    (0.0, 0.131, 0.360, 0.034, 0.020, 0.015),
+    (0.0, 0.126, 0.392, 0.024, 0.014, 0.012),
+    (0.0, 0.122, 0.416, 0.016, 0.010, 0.010),
+    (0.0, 0.120, 0.426, 0.0),
 )
 STRIPES = tuple((place, 0.018, MOSS) for place in np.linspace(0.06, 0.74, 9).tolist())
 HIDE_PAINT = Paint(((0.0, OLIVE), (0.7, OLIVE), (0.85, SAND), (1.0, OLIVE)), CREAM, -0.25, STRIPES)
 LEG_PROFILE = (
     (0.0, 0.0),
-    (0.15, 0.024),
-    (0.5, 0.025),
-    (0.95, 0.018),
-    (1.3, 0.019),
-    (1.8, 0.0125),
-    (2.0, 0.0125),
+    (0.06, 0.016),
+    (0.15, 0.0225),
+    (0.35, 0.0255),
+    (0.5, 0.0252),
+    (0.62, 0.0242),
+    (0.85, 0.020),
+    (1.0, 0.0185),
+    (1.2, 0.0190),
+    (1.4, 0.0175),
+    (1.6, 0.0150),
+    (1.85, 0.0125),
+    (2.0, 0.0135),
 )
-LEG_PAINT = Paint(((0.0, OLIVE), (2.0, SAND)), CREAM, -0.6, ((0.5, 0.07, MOSS), (1.4, 0.07, MOSS)))
+LEG_PAINT = Paint(((0.0, OLIVE), (2.0, SAND)), CREAM, -0.6, ((0.5, 0.1, MOSS), (1.4, 0.1, MOSS)))
 
 
 def build() -> BuiltIn:
@@ -69,21 +80,31 @@ def build() -> BuiltIn:
     lizard.chain(names, np.array(list(SPINE.values())))
     tail = [f"Tail{k}" for k in range(1, len(TAIL))]
     lizard.chain(tail, TAIL, "Pelvis", marker="TailTip")
-    lizard.add(body(TRUNK_SECTIONS, rings=60, sides=18), names, HIDE_PAINT, blend=0.45)
+    hide = lizard.add(body(TRUNK_SECTIONS, rings=54, sides=18), names, HIDE_PAINT, blend=0.45)
     whip = limb(
-        ((0.0, 0.121, -0.210), *TAIL),
+        ((0.0, 0.121, -0.200), *TAIL),
         (
-            (0.0, 0.034, 0.028, 0.032),
-            (1.0, 0.027, 0.025, 0.027),
-            (3.0, 0.019),
-            (6.0, 0.009),
+            (0.0, 0.026, 0.022, 0.024),
+            (0.5, 0.034, 0.026, 0.030),
+            (1.0, 0.032, 0.027, 0.030),
+            (1.5, 0.029, 0.026, 0.028),
+            (2.0, 0.026, 0.024, 0.025),
+            (2.5, 0.0225),
+            (3.0, 0.020),
+            (3.5, 0.0175),
+            (4.0, 0.0155),
+            (4.5, 0.0135),
+            (5.0, 0.0115),
+            (6.0, 0.0085),
+            (7.0, 0.0050),
             (8.0, 0.0),
         ),
         sides=14,
+        side=(-1.0, 0.0, 0.0),
     )
     rings = tuple((place, 0.16, MOSS) for place in np.arange(1.2, 7.6, 0.7).tolist())
-    paint = Paint(((0.0, OLIVE), (5.0, BROWN), (8.0, MOSS)), CREAM, -0.5, rings)
-    lizard.add(whip, ("Pelvis", *tail, "TailTip"), paint, blend=0.4)
+    paint = Paint(((0.0, OLIVE), (5.0, BROWN), (8.0, MOSS)), CREAM, -0.6, rings)
+    limbs = [lizard.add(whip, ("Pelvis", *tail, "TailTip"), paint, blend=0.4)]
     _head(lizard)
     legs = []
     for leg, x, z, heading, distance, lengths in LEGS:
@@ -94,9 +115,10 @@ def build() -> BuiltIn:
         bones = [leg + "UpperLeg", leg + "LowerLeg"]
         lizard.chain([*bones, leg + "Foot"], points, "Pelvis" if leg == "LeftHind" else "Chest")
         patch = limb(points, LEG_PROFILE, sides=10, side=outward_side(points), pointed=False)
-        lizard.add(patch, (*bones, leg + "Foot"), LEG_PAINT)
+        limbs.append(lizard.add(patch, (*bones, leg + "Foot"), LEG_PAINT))
         _foot(lizard, leg + "Foot", 64.0 if leg == "LeftHind" else 40.0)
         legs.append(f"{bones[0]}:{leg}Foot")
+    lizard.fuse(hide, limbs, SEAM)
     return lizard.finish(legs, names)
 
 
@@ -104,7 +126,11 @@ def _foot(lizard: Sculpture, bone: str, heading: float) -> None:
     """Add the sole and five splayed toes with claws."""
     ankle = lizard.position(bone)
     palm = ellipsoid(
-        (ankle[0] + 0.004, 0.010, ankle[2] + 0.004), (0.010, -0.001, 0.010), 0.016, 0.010, sides=12
+        (ankle[0] + 0.003, 0.0115, ankle[2] + 0.003),
+        (0.014, -0.001, 0.014),
+        0.0175,
+        0.0155,
+        sides=12,
     )
     lizard.add(palm, bone, Paint(((0.0, SAND),), CREAM, -0.6))
     for k, length in enumerate((0.026, 0.036, 0.044, 0.042, 0.028)):
@@ -131,8 +157,8 @@ def _head(lizard: Sculpture) -> None:
     """Add jaw, eyes, nostrils and a crest along the back."""
     jaw = body(
         (
-            (0.0, 0.116, 0.292, 0.0),
-            (0.0, 0.113, 0.310, 0.038, 0.012, 0.012),
+            (0.0, 0.119, 0.276, 0.0),
+            (0.0, 0.114, 0.308, 0.0395, 0.012, 0.011),
             (0.0, 0.112, 0.350, 0.033, 0.009, 0.010),
             (0.0, 0.113, 0.400, 0.018, 0.006, 0.008),
             (0.0, 0.115, 0.414, 0.0),
@@ -141,20 +167,29 @@ def _head(lizard: Sculpture) -> None:
         sides=12,
     )
     lizard.add(jaw, "Head", Paint(((0.0, CREAM),)))
-    eye = ellipsoid((0.036, 0.147, 0.338), (0.003, 0.001, 0.008), 0.007, rings=7, sides=10)
+    eye = ellipsoid((0.0355, 0.1455, 0.338), (0.001, 0.0, 0.008), 0.0065, rings=7, sides=10)
     lizard.add(eye, "Head", plain(AMBER), GLOSS, both=True)
-    pupil = ellipsoid((0.041, 0.148, 0.339), (0.0015, 0.0, 0.0025), 0.0045, rings=5, sides=8)
+    pupil = ellipsoid((0.0395, 0.1462, 0.3385), (0.0, 0.0, 0.0018), 0.0031, 0.0042, 5, 8)
     lizard.add(pupil, "Head", plain(INK), GLOSS, both=True)
+    lid = ellipsoid((0.0340, 0.1490, 0.337), (0.001, 0.0, 0.0105), 0.0070, 0.0050, 7, 10)
+    lizard.add(lid, "Head", plain(OLIVE), both=True)
+    drum = ellipsoid((0.0435, 0.131, 0.300), (0.0, 0.0, 0.006), 0.0018, 0.006, rings=6, sides=8)
+    lizard.add(drum, "Head", plain(BROWN), both=True)
     nostril = ellipsoid((0.010, 0.130, 0.408), (0.0, 0.0, 0.002), 0.0022, rings=5, sides=6)
     lizard.add(nostril, "Head", plain(INK), both=True)
     names = tuple(SPINE)
-    for k in range(15):
+    for k in range(13):
         z = -0.19 + 0.033 * k
+        tall = 0.6 + 0.4 * np.sin(np.pi * (k + 1.0) / 14.0)
         bone = max(
             (name for name in names if SPINE[name][2] <= z + 1e-9), key=lambda n: SPINE[n][2]
         )
         spike = limb(
-            [(0.0, 0.150, z), (0.0, 0.168, z - 0.006), (0.0, 0.178, z - 0.016)],
+            [
+                (0.0, 0.148, z),
+                (0.0, 0.152 + 0.016 * tall, z - 0.007),
+                (0.0, 0.152 + 0.026 * tall, z - 0.017),
+            ],
             ((0.0, 0.006, 0.010), (1.0, 0.003, 0.006), (2.0, 0.0)),
             sides=6,
         )
