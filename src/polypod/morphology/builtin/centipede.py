@@ -15,8 +15,9 @@ CHESTNUT, UMBER, TEAL, HONEY, RED, INK = (
 PAIRS = 20
 PITCH = 0.064  # m, from a segment to the next
 HIP_HEIGHT, CENTRE_HEIGHT = 0.08, 0.090
-FOOT_DISTANCE = 0.095  # m in plan, from the hip
-SEGMENTS = (0.016, 0.052, 0.050, 0.039)  # coxa with trochanter, prefemur with femur, tibia, tarsus
+FOOT_DISTANCE = 0.100  # m in plan, from the hip
+FAN = (78.0, 102.0)  # degrees from +Z toward +X: where the first and the last leg reach
+SEGMENTS = (0.017, 0.056, 0.054, 0.042)  # coxa with trochanter, prefemur with femur, tibia, tarsus
 BENDS = (-38.0, 92.0, 16.0)
 SEGMENT_NAMES = ("Coxa", "Femur", "Tibia", "Tarsus")
 LEG_PROFILE = (
@@ -85,7 +86,7 @@ def _segment(centipede: Sculpture, number: int, z: float) -> None:
 def _leg(centipede: Sculpture, number: int, z: float) -> None:
     """Add the left leg of a segment; legs fan out, and are longer toward the tail."""
     share = (number - 1.0) / (PAIRS - 1.0)
-    turn = np.radians(64.0 + 54.0 * share)
+    turn = np.radians((1.0 - share) * FAN[0] + share * FAN[1])
     length = 0.98 + 0.12 * share**2
     hip = np.array([0.036 * _width(number), HIP_HEIGHT, z])
     out = np.array([np.sin(turn), 0.0, np.cos(turn)])
