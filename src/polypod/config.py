@@ -48,7 +48,7 @@ class Settings:
     replan_until: float = 0.75
     """Share of the swing after which a foot keeps its plan."""
 
-    search_radius: float = 0.35
+    search_radius: float = 0.6
     """Where a footprint is looked for around the preferred place, leg lengths."""
 
     wider_search: float = 1.2
