@@ -26,7 +26,7 @@ TWO_LEGGED_TILT = 0.25
 LEVEL_UPRIGHT = 0.5
 LEVEL_SPRAWLING = 0.15
 # A sprawler's feet go round what its body passes: the part of its track that is kept free.
-SPRAWLING_TRACK = 0.5
+SPRAWLING_TRACK = 0.72
 # Part of what a leg can fold in stance that a step on level ground may take.
 FOLDING = 0.4
 
