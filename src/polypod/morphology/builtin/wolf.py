@@ -221,9 +221,9 @@ def _paw(wolf: Sculpture, bone: str, scale: float) -> None:
     ball = body(
         [
             (x, 0.5 * height, z - 0.030 * scale, 0.0),
-            (x, 0.5 * height, z - 0.020 * scale, 0.025 * scale, 0.6 * height, 0.5 * height),
-            (x, 0.5 * height, z + 0.008 * scale, 0.031 * scale, 0.78 * height, 0.5 * height),
-            (x, 0.42 * height, z + 0.035 * scale, 0.027 * scale, 0.45 * height, 0.42 * height),
+            (x, 0.5 * height, z - 0.020 * scale, 0.025 * scale, 0.6 * height, 0.54 * height),
+            (x, 0.5 * height, z + 0.008 * scale, 0.031 * scale, 0.78 * height, 0.54 * height),
+            (x, 0.42 * height, z + 0.035 * scale, 0.027 * scale, 0.45 * height, 0.46 * height),
             (x, 0.38 * height, z + 0.050 * scale, 0.0),
         ],
         rings=9,
