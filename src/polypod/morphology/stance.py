@@ -16,6 +16,7 @@ BoolArray = NDArray[np.bool_]
 
 # Parts of a leg's length.
 MOST_EXTENSION = 0.9  # in stance: what is left is for the stride
+TOLERATED_EXTENSION = 0.935  # a modeller's own stance is left alone up to here
 FULL_EXTENSION = 0.97  # with a body height that was asked for
 LEAST_DROP = 0.15  # a sole at least this far below its hip stands
 LEVEL = 0.15  # soles within this of each other are on one ground
@@ -175,6 +176,8 @@ def extension(hip: FloatArray, sole: FloatArray, limbs: list[Limb]) -> FloatArra
 def _crouch(hip: FloatArray, sole: FloatArray, limbs: list[Limb]) -> tuple[FloatArray, float]:
     """Return soles raised together, and drawn in where that is not enough; and by how much."""
     effector, chain = _effectors(sole, limbs)
+    if extension(hip, sole, limbs).max() <= TOLERATED_EXTENSION:
+        return sole, 0.0
     most = MOST_EXTENSION * chain
     plan = np.hypot(*(effector - hip)[:, [0, 2]].T)
     drop = hip[:, 1] - effector[:, 1]
