@@ -121,5 +121,5 @@ def test_the_description_says_what_holds_and_what_was_guessed(tmp_path):
     ):
         assert said in told
     guessed = describe(load_rig(quadruped().write(tmp_path)))
-    for option in ("--forward", "--leg", "--height", "--spine", "--body-height"):
+    for option in ("--forward", "--leg", "--height", "--spine"):
         assert option in guessed.split("guessed:")[1]
