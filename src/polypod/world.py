@@ -34,6 +34,8 @@ from polypod.morphology.types import Morphology
 from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
+# Longer steps than this are no frames that anybody watches.
+LONGEST_FRAME = 0.05
 
 
 @kernel
@@ -73,7 +75,7 @@ def step_range(
 ) -> None:  # fmt: skip
     """Step the creatures first to last - 1; a needle that turns far in `dt` goes in parts."""
     for c in range(first, last):
-        state.frame[c] = dt
+        state.frame[c] = min(dt, LONGEST_FRAME)
         parts = step_count(dt * state.cycle_rate[c], state.swing_extent[c])
         for _ in range(parts):
             step_creature(

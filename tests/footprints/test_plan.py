@@ -114,8 +114,9 @@ def test_no_foot_enters_a_crate_in_fields_of_45(start):
             end = path.point[path.count[0] - 1]
             assert tuple(path.point[0]) == tuple(request.start_world)
             assert end[1] == surface(env, end[0], end[2])[0]
-            reach = math.dist(end, request.hip_touchdown), math.dist(end, request.hip_end_of_stance)
-            assert request.reach_min <= min(reach) <= max(reach) <= request.reach_max
+            # Where it would have to leave early the body waits; where it lands it must reach.
+            landing = math.dist(end, request.hip_touchdown)
+            assert request.reach_min <= landing <= request.reach_max
     assert held <= 0.02 * steps
 
 

@@ -28,7 +28,7 @@ CHANGE_COST = 0.15
 # A body that its legs hold back slows down so many times as fast as it accelerates.
 SLOWING = 3.0
 # Where it gets at less than this share of its speed; less is made up for within a step.
-HELD_BACK = 0.6
+HELD_BACK = 0.5
 # Where it gets at less than this share of its speed it steps quicker, by so much more for each gait
 # cycle's time spent so, up to a limit: quicker steps are shorter.
 UNHURRIED = 0.93

@@ -23,7 +23,7 @@ from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count
 from polypod.ik.skeleton import pose_joints
 from polypod.math.vec3 import load_vec3
-from polypod.world import World
+from polypod.world import LONGEST_FRAME, World
 
 PARTS = ("gait and steering", "maps, footprints and paths", "body", "inverse kinematics")
 
@@ -36,6 +36,7 @@ def run_part(
     """Run one part of a frame for all creatures; `turn` [C] and `pose` [C, 7] go between parts."""
     for c in range(count):
         if part == 0:
+            state.frame[c] = min(dt, LONGEST_FRAME)
             shift_spacing(c, dt, state, command, tables, settings)
             restless = any_off_place(c, state, tables, settings)
             turn[c] = advance_gait(c, dt, restless, state, command, tables, settings, scratch)
