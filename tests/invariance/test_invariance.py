@@ -1,7 +1,6 @@
 """On open ground a walk moved, turned, mirrored or scaled is the same walk.
 
-Open also means that no leg is in another's way: ways around are found on a grid, which lies along
-the world's axes. So the walks here turn gently.
+The walks turn tightly enough that legs get into each other's way, so that ways around are looked for.
 
 Tolerances are what was found on 4 s of walking, with room for another machine's rounding: errors of
 rounding grow slowly along a walk, because feet are planned from feet.
@@ -40,7 +39,7 @@ def walk(
     speed: float,
     position: tuple[float, float] = (0.0, 0.0),
     heading: float = 0.0,
-    turn: float = 0.2,
+    turn: float = 0.9,
     travel: float = 0.0,
     shift: float = 0.0,
     height: float = 0.0,
@@ -118,7 +117,7 @@ def test_turned(creature: Morphology, base: Walked, angle: float) -> None:
     assert_same(base, unturned, unit(creature))
 
 
-@pytest.mark.parametrize(("turn", "travel"), [(0.2, 0.0), (0.0, 0.3)])
+@pytest.mark.parametrize(("turn", "travel"), [(0.9, 0.0), (0.0, 0.3)])
 def test_mirrored(creature: Morphology, turn: float, travel: float) -> None:
     """Left for right, with the other side's feet half a cycle on: the gaits are symmetric."""
     speed = brisk(creature)

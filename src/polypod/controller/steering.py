@@ -216,13 +216,15 @@ def note_pose(
     z = state.position[c, 2] - before.z
     real = (math.sin(course) * x + math.cos(course) * z) / dt
     acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
+    # What the frame asked for: its mean speed, which steering brought about by a steady change.
+    asked = 0.5 * (state.speed[c] + pose.speed)
     slower = 0.0
-    if real < UNHURRIED * pose.speed:
+    if real < UNHURRIED * asked:
         state.hurry[c] = min(
             state.hurry[c] + HURRY * dt / (CYCLE * tables.pendulum_time), MOST_HURRY
         )
-    if real < HELD_BACK * pose.speed:
-        slower = min(pose.speed - real, SLOWING * acceleration * dt)
+    if real < HELD_BACK * asked:
+        slower = min(asked - real, SLOWING * acceleration * dt)
     state.turn_rate[c] = pose.turn_rate
     state.speed[c] = max(pose.speed - slower, 0.0)
     state.waypoint[c] = int(pose.waypoint)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable
+from polypod.footprints.scratch import TALLY_PATHS, PlanScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3
 from polypod.paths.check import chords_clear, deepest, meets_legs, out_of_reach
 from polypod.paths.curve import PATH_KNOTS, PathRow
-from polypod.paths.lift import BLEND, SHORTEST, arc_start, lift_path, place_knots
+from polypod.paths.lift import BLEND, SHORTEST, arc_start, lift_path, place_knots, straight_plan
 from polypod.paths.score import path_score
 from polypod.paths.scratch import LiftScratch, OtherLegs
 
@@ -55,3 +56,22 @@ def try_pair(
             return pair, quality
         blend *= 0.25
     return NOTHING, 0.0
+
+
+@kernel
+def try_direct(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    scratch: PlanScratch,
+    place_score: float,
+    end: Vec3,
+    best: float,
+) -> tuple[float, float]:
+    """Return what `try_pair` does for the straight way to a place; its path is in the trial."""
+    points = straight_plan(scratch.lift, request.start_world, end)
+    scratch.tally[TALLY_PATHS] += 1
+    return try_pair(
+        env, settings, request, legs, scratch.lift, points, end, place_score, best, scratch.trial
+    )

@@ -6,10 +6,11 @@ import math
 
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
-from polypod.environment.table import EnvironmentTable
+from polypod.environment.table import EnvironmentTable, surface
 from polypod.footprints.beside import is_open, try_beside
 from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
-from polypod.footprints.pair import NOTHING, try_pair
+from polypod.footprints.frame import foot_frame, legs_in, legs_out, path_out, request_in
+from polypod.footprints.pair import NOTHING, try_direct, try_pair
 from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import (
     MAP_CELLS,
@@ -20,10 +21,9 @@ from polypod.footprints.scratch import (
     PlanScratch,
     make_plan_scratch,
 )
-from polypod.footprints.settings import PlanSettings, StepRequest
-from polypod.math.vec3 import Vec3, load_vec3
+from polypod.footprints.settings import DETOUR, PlanSettings, StepRequest
+from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 from polypod.paths.curve import PathRow, copy_path
-from polypod.paths.lift import straight_plan
 from polypod.paths.score import path_score_bound, plan_bending
 from polypod.paths.scratch import OtherLegs
 from polypod.paths.slices import OVER_ALL, place_slices, plan_layer, plan_top
@@ -32,8 +32,6 @@ __all__ = ["PlanScratch", "make_plan_scratch", "plan_step"]
 
 # A path this good is the direct swing, unhindered.
 UNHINDERED = 0.97
-# Room about start, preferred place and search radius for ways around, leg lengths.
-DETOUR = 0.25
 ROUNDS = 3
 
 
@@ -142,6 +140,66 @@ def best_pair(
 
 
 @kernel
+def search(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    scratch: PlanScratch,
+    request: StepRequest,
+    legs: OtherLegs,
+    direct_score: float,
+    best: float,
+    path: PathRow,
+) -> float:
+    """Return the score of the best pair of candidate and path over the maps' grid.
+
+    `direct_score` is the preferred place's own, negative where it cannot be stood on, and `best`
+    what is to beat, whose path is in `path`.
+    """
+    start = request.start_world
+    wanted = request.preferred_world
+    y, _ = surface(env, wanted.x, wanted.z)
+    window = scratch.window
+    near = scratch.lift.near
+    fill_window(env, settings, request, window)
+    close_cells(env, settings, request, legs, window, scratch.grid)
+    cells = list_cells(settings, request, window, scratch.grid, scratch.found)
+    kept = 0
+    if direct_score >= 0.0:
+        kept = 1
+        scratch.found.score[0] = direct_score
+        store_vec3(scratch.found.place[0], Vec3(wanted.x, y, wanted.z))
+        scratch.found.place_cell[0, 0] = int((wanted.z - window.place[1]) / window.place[2])
+        scratch.found.place_cell[0, 1] = int((wanted.x - window.place[0]) / window.place[2])
+    # Where no pair of the first candidates is valid, the next ones get their turn.
+    for _ in range(ROUNDS):
+        kept = judge_candidates(
+            env, settings, request, legs, window, cells, near, scratch.found, kept
+        )
+        if kept == 0:
+            break
+        slices = place_slices(
+            scratch.grid,
+            window.highest,
+            window.place,
+            window.size[0],
+            scratch.found.place,
+            kept,
+            start,
+            max(start.y, y),
+            settings.slice_limit,
+            settings.slice_thickness * request.step_height,
+        )
+        best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
+        scratch.tally[TALLY_CANDIDATES] += kept
+        for layer in range(slices):
+            scratch.tally[TALLY_WAVEFRONTS] += scratch.grid.spread[layer]
+        if best >= 0.0:
+            break
+        kept = 0
+    return best
+
+
+@kernel
 def plan_step(
     env: EnvironmentTable,
     settings: PlanSettings,
@@ -169,75 +227,31 @@ def plan_step(
     legs = OtherLegs(scratch.other_a, scratch.other_b, scratch.other_radius)
     for k in range(scratch.tally.shape[0]):
         scratch.tally[k] = 0
-    start = request.start_world
     wanted = request.preferred_world
     best = NOTHING
-    kept = 0
     near = scratch.lift.near
     place_score, y = judge_place(env, settings, request, legs, near, wanted.x, wanted.z)
-    end = Vec3(wanted.x, y, wanted.z)
     if place_score >= 0.0:
-        kept = 1
-        points = straight_plan(scratch.lift, start, end)
-        scratch.tally[TALLY_PATHS] += 1
-        best, quality = try_pair(
-            env,
-            settings,
-            request,
-            legs,
-            scratch.lift,
-            points,
-            end,
-            place_score,
-            best,
-            scratch.trial,
-        )
+        end = Vec3(wanted.x, y, wanted.z)
+        best, quality = try_direct(env, settings, request, legs, scratch, place_score, end, best)
         if best >= 0.0:
             copy_path(scratch.trial, path)
             unhindered = quality >= UNHINDERED and place_score >= settings.open_score
             if unhindered or settings.first_pair:
                 scratch.tally[TALLY_DIRECT] = 1
                 return True, best
-    if best < 0.0 and is_open(env, request, near):
-        best = try_beside(env, settings, request, legs, scratch, path)
-        if best >= 0.0:
-            scratch.tally[TALLY_DIRECT] = 1
-            return True, best
-    window = scratch.window
-    fill_window(env, settings, request, window)
-    close_cells(env, settings, request, legs, window, scratch.grid)
-    cells = list_cells(settings, request, window, scratch.grid, scratch.found)
-    if kept == 1:
-        scratch.found.score[0] = place_score
-        scratch.found.place[0, 0] = end.x
-        scratch.found.place[0, 1] = end.y
-        scratch.found.place[0, 2] = end.z
-        scratch.found.place_cell[0, 0] = int((end.z - window.place[1]) / window.place[2])
-        scratch.found.place_cell[0, 1] = int((end.x - window.place[0]) / window.place[2])
-    # Where no pair of the first candidates is valid, the next ones get their turn.
-    for _ in range(ROUNDS):
-        kept = judge_candidates(
-            env, settings, request, legs, window, cells, near, scratch.found, kept
-        )
-        if kept == 0:
-            break
-        slices = place_slices(
-            scratch.grid,
-            window.highest,
-            window.place,
-            window.size[0],
-            scratch.found.place,
-            kept,
-            start,
-            max(start.y, y),
-            settings.slice_limit,
-            settings.slice_thickness * request.step_height,
-        )
-        best = best_pair(env, settings, request, legs, scratch, kept, slices, best, path)
-        scratch.tally[TALLY_CANDIDATES] += kept
-        for layer in range(slices):
-            scratch.tally[TALLY_WAVEFRONTS] += scratch.grid.spread[layer]
-        if best >= 0.0:
-            break
-        kept = 0
+    if not is_open(env, request, near):
+        best = search(env, settings, scratch, request, legs, place_score, best, path)
+        return best >= 0.0, max(best, 0.0)
+    best = try_beside(env, settings, request, legs, scratch, best, path)
+    if best >= 0.0:
+        scratch.tally[TALLY_DIRECT] = 1
+        return True, best
+    frame = foot_frame(request)
+    legs_in(frame, legs, request.other_foot_count)
+    own = request_in(frame, request)
+    best = search(env, settings, scratch, own, legs, place_score, best, path)
+    legs_out(frame, legs, request.other_foot_count)
+    if best >= 0.0:
+        path_out(frame, path)
     return best >= 0.0, max(best, 0.0)

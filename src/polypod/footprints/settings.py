@@ -12,6 +12,9 @@ from typing import NamedTuple
 from polypod.compute import kernel
 from polypod.math.vec3 import Vec3
 
+# Room about start, preferred place and search radius for ways around, leg lengths.
+DETOUR = 0.25
+
 
 class PlanSettings(NamedTuple):
     """How thoroughly and how carefully to plan; the same for all feet of a creature.
