@@ -1,6 +1,6 @@
 """On open ground a walk moved, turned, mirrored or scaled is the same walk.
 
-The walks turn tightly enough that legs get into each other's way, so that ways around are looked for.
+The walks turn tightly enough that legs get into each other's way and ways around are looked for.
 
 Tolerances are what was found on 4 s of walking, with room for another machine's rounding: errors of
 rounding grow slowly along a walk, because feet are planned from feet.
