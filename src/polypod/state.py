@@ -49,7 +49,9 @@ class HerdState(NamedTuple):
     speed: FloatArray  # [C] m/s along the direction of travel
     waypoint: IntArray  # [C] index of the waypoint being approached
     travelled: FloatArray  # [C] m, along the way asked for
+    steered: FloatArray  # [C, 7] PlanPose: where steering wants the body at the end of the step
     needle: FloatArray  # [C] phase of the gait in [0, 1)
+    turn: FloatArray  # [C] cycles by which the needle turned in this step
     cycle_rate: FloatArray  # [C] cycles a second
     detour: FloatArray  # [C] rad from the heading asked for, to pass what is forbidden
     hurry: FloatArray  # [C] by how much quicker it steps because legs were at their limits
@@ -64,6 +66,7 @@ class HerdState(NamedTuple):
     swinging: BoolArray  # [C, K] the foot is off the ground
     airborne: FloatArray  # [C, K] s since it lifted
     frame: FloatArray  # [C] s between two frames that are shown
+    steps: IntArray  # [C] into how many steps the frame is divided
     stood: FloatArray  # [C, K] cycles since it landed
     lift_phase: FloatArray  # [C, K] needle at lift-off, or at the last new plan
     swing_progress: FloatArray  # [C, K] of the time from there to touchdown, 0 to 1
@@ -144,6 +147,8 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "blend_left",
             "gait_number",
             "least_down",
+            "turn",
+            "steps",
         ),
         (c,),
     )
@@ -176,6 +181,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         "position": (c, 3),
         "rotation": (c, 4),
         "spacing": (c, k, 2),
+        "steered": (c, 7),
         "slope": (c, 2),
         "tilt": (c, 2, 3),
         "lift": (c, 3),

@@ -9,78 +9,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from polypod.body.pose import update_tilt, wished_height
-from polypod.body.support import body_rotation, feet_plane
 from polypod.command import FARTHEST, numbers_of
 from polypod.compute import kernel, over_creatures, thread_count
 from polypod.config import Settings
-from polypod.controller.lift import any_off_place, lift_feet
-from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.spawn import spawn
-from polypod.controller.steering import move_body, note_pose
-from polypod.controller.swing import replan_feet, shift_spacing
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain
 from polypod.errors import SettingError
-from polypod.gait.advance import advance_gait, destination_disks
+from polypod.frame import step_creatures
+from polypod.gait.advance import destination_disks
 from polypod.gait.library import default_gait, make_gait
-from polypod.gait.needle import minimum_feet_down, step_count
+from polypod.gait.needle import minimum_feet_down
 from polypod.gait.pattern import Gait
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
-from polypod.math.vec3 import load_vec3
 from polypod.morphology.types import Morphology
 from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
-# Longer steps than this are no frames that anybody watches.
-LONGEST_FRAME = 0.05
-
-
-@kernel
-def step_creature(
-    c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
-) -> None:  # fmt: skip
-    """Advance one creature by `dt` seconds: the blocks of P1's Figures 2 and 5, in their order."""
-    # 1. Command: feet spacing approaches what was asked for.
-    shift_spacing(c, dt, state, command, tables, settings)
-    # 2. Gait: tempo, transition, needle.
-    restless = any_off_place(c, state, tables, settings)
-    turn = advance_gait(c, dt, restless, state, command, tables, settings, scratch)
-    # 3. Body on the plane: its default movement, refined by the feet's feedback.
-    pose = move_body(c, dt, state, command, tables, settings, env)
-    # 4. Maps, footprints and paths, for the feet that need them.
-    replan_feet(c, dt, pose, state, command, tables, settings, env, plan_settings, scratch)
-    lift_feet(c, dt, turn, pose, state, command, tables, settings, env, plan_settings, scratch)
-    # 5. Body: tilt and height over the feet and over what lies beneath.
-    plane = feet_plane(c, state, tables)
-    update_tilt(c, dt, plane, state, tables, settings)
-    lean = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-    height = wished_height(c, dt, pose, plane, lean, state, command, tables, settings, env, scratch)
-    # 6. Reach: the body goes as far as its legs allow, and the swinging feet with it.
-    before = load_vec3(state.position[c])
-    settle_body(c, dt, pose, height, state, tables, env, scratch)
-    note_pose(c, dt, pose, before, state, command, tables, settings)
-    advance_swings(c, dt, state, scratch, env)
-    # 7. Inverse kinematics: a pose for every joint.
-    pose_joints(c, state, tables, scratch)
-
-
-@kernel
-def step_range(
-    first: int, last: int, dt: float, state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
-) -> None:  # fmt: skip
-    """Step the creatures first to last - 1; a needle that turns far in `dt` goes in parts."""
-    for c in range(first, last):
-        state.frame[c] = min(dt, LONGEST_FRAME)
-        parts = step_count(dt * state.cycle_rate[c], state.swing_extent[c])
-        for _ in range(parts):
-            step_creature(
-                c, dt / parts, state, command, tables, settings, env, plan_settings, scratch
-            )
 
 
 @kernel
@@ -210,11 +157,7 @@ class World:
                 herd.scratch(worker)
 
             def run(first: int, last: int, worker: int, herd: Herd = herd) -> None:
-                step_range(
-                    first, last, dt, herd.kernel_state, herd.kernel_command, herd.kernel_tables,
-                    herd.kernel_settings, self.kernel_environment, herd.kernel_plan,
-                    herd.scratch(worker),
-                )  # fmt: skip
+                step_creatures(herd, self.kernel_environment, dt, first, last, worker)
 
             over_creatures(run, herd.count, self.threads)
         self.time += dt

@@ -13,7 +13,7 @@ import pytest
 
 from polypod.environment.obstacles import Obstacle, scatter
 from polypod.environment.terrain import Terrain
-from polypod.jobs.frame_parts import step_in_parts
+from polypod.frame import step_creatures
 from polypod.morphology.load import load_rig
 from polypod.recording import record_walk
 from polypod.report.record import write_record
@@ -81,22 +81,14 @@ def test_another_process_makes_no_difference(hash_seed: str, expected: list[str]
     assert done.stdout.split() == expected
 
 
-def test_frames_in_parts_are_frames() -> None:
-    """The benchmark's clocks measure the very walk that World.step makes."""
-    whole, parts = make_world(1), make_world(1)
+def test_clocks_change_nothing_and_see_every_part() -> None:
+    whole, clocked = make_world(1), make_world(1)
     seconds = np.zeros(4)
     for _ in range(45):
         whole.step(1.0 / FPS)
-        step_in_parts(parts, 1.0 / FPS, seconds)
+        for herd in clocked.herds:
+            step_creatures(herd, clocked.kernel_environment, 1.0 / FPS, 0, herd.count, 0, seconds)
     for name, array in whole.herds[0].state._asdict().items():
         if isinstance(array, np.ndarray):
-            assert array.tobytes() == getattr(parts.herds[0].state, name).tobytes(), name
+            assert array.tobytes() == getattr(clocked.herds[0].state, name).tobytes(), name
     assert np.all(seconds > 0.0)
-
-
-def test_a_step_too_long_for_one_turn_is_refused_by_the_clocks() -> None:
-    world = make_world(1, 1)
-    for _ in range(30):
-        world.step(1.0 / FPS)
-    with pytest.raises(ValueError, match="several steps"):
-        step_in_parts(world, 1.0, np.zeros(4))

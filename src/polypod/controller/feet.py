@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, foot_on_its_way
@@ -20,6 +20,16 @@ from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_ve
 CROWDED = 0.5
 # Where no path is found, a lower one may pass under the leg's shortest reach.
 STEP_SHARES = (1.0, 0.35)
+
+
+class Errand(NamedTuple):
+    """What a foot is sent to do."""
+
+    preferred: Vec3  # world, m: where it would land on the plan
+    seconds: float  # until touchdown
+    velocity: Vec3  # with which it sets out, m per unit of progress
+    launch: float  # its speed then over the mean speed
+    radius: float  # m about the preferred place in which a footprint is looked for
 
 
 @kernel
@@ -124,17 +134,17 @@ def preferred_footprint(
 
 @kernel
 def plan_foot(
-    c: int, k: int, dt: float, pose: PlanPose, preferred: Vec3, touchdown: float,
-    velocity: Vec3, launch: float, radius: float,
-    state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
+    c: int, k: int, dt: float, pose: PlanPose, errand: Errand, state: Any, command: Any,
+    tables: Any, settings: Any, env: Any, plan_settings: Any, scratch: Any,
 ) -> bool:  # fmt: skip
-    """Plan a foot's way from where it is to the best place near `preferred`.
+    """Plan a foot's way from where it is to the best place near the preferred one.
 
     The path is left in the scratch; the target and the touchdown orientation go to the state.
     Returns False where no valid pair of footprint and path was found; the state is then untouched.
     """
     legs = tables.legs
+    preferred = errand.preferred
+    touchdown = errand.seconds
     stance = stance_seconds(c, k, state)
     landing = predict(pose, touchdown, c, command, tables, settings)
     middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
@@ -155,7 +165,7 @@ def plan_foot(
     for share in STEP_SHARES:
         request = StepRequest(
             start,
-            velocity,
+            errand.velocity,
             preferred,
             hip_at(c, k, pose, state, tables),
             hip,
@@ -173,10 +183,10 @@ def plan_foot(
             normalized(outward, Vec3(0.0, 0.0, 0.0)),
             touchdown,
             math.inf,
-            radius,
+            errand.radius,
             others,
             dt,
-            launch,
+            errand.launch,
             level_height(c, preferred.x, preferred.z, state),
             tables.level_weight,
         )

@@ -1,4 +1,4 @@
-"""Letting feet leave the ground: in their turn, late, or out of turn (P1 3.2, 3.3)."""
+"""Which feet leave the ground, and for what: in turn, late, or out of turn (P1 3.2, 3.3)."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import Any
 
 from polypod.body.reach import effector_world
 from polypod.compute import kernel
-from polypod.controller.feet import plan_foot, preferred_footprint, rest_offset
+from polypod.controller.feet import Errand, preferred_footprint, rest_offset
 from polypod.controller.steering import PlanPose
-from polypod.controller.swing import FASTEST_CATCH_UP, begin_swing, wished_progress
+from polypod.controller.swing import begin_swing, wished_progress
 from polypod.environment.table import surface
-from polypod.gait.needle import lift_phase, next_foot_to_lift, swing_progress
+from polypod.gait.needle import swing_progress
 from polypod.math.quat import load_quat
 from polypod.math.vec3 import Vec3, distance, load_vec3, store_vec3
 
@@ -67,83 +67,49 @@ def seconds_to_touchdown(c: int, k: int, state: Any) -> float:
 
 
 @kernel
-def try_lift(
-    c: int, k: int, dt: float, begun: float, seconds: float, pose: PlanPose, state: Any,
-    command: Any, tables: Any, settings: Any, env: Any, plan_settings: Any, scratch: Any,
-) -> bool:  # fmt: skip
-    """Lift a foot if it finds a place and a way there in `seconds`; else note its wish."""
+def way_off(
+    c: int, k: int, seconds: float, pose: PlanPose, state: Any, command: Any, tables: Any,
+    settings: Any,
+) -> Errand:  # fmt: skip
+    """Return what a foot that lifts now is to do; one that waits for a place looks farther."""
     radius = settings.search_radius * tables.legs.length[k]
     waited = state.waiting[c, k] * state.cycle_rate[c]
     radius *= min(1.0 + waited * settings.wider_search, WIDEST_SEARCH)
     preferred = preferred_footprint(c, k, pose, seconds, state, command, tables, settings)
-    if plan_foot(
-        c, k, dt, pose, preferred, seconds, Vec3(0.0, 0.0, 0.0), 0.0, radius,
-        state, command, tables, settings, env, plan_settings, scratch,
-    ):  # fmt: skip
-        state.swinging[c, k] = True
-        state.airborne[c, k] = 0.0
-        begin_swing(c, k, begun, 0.0, state, scratch)
-        state.waiting[c, k] = 0.0
-        return True
-    state.waiting[c, k] += dt
-    height, _ = surface(env, preferred.x, preferred.z)
-    store_vec3(state.wish[c, k], Vec3(preferred.x, height, preferred.z))
-    return False
+    return Errand(preferred, seconds, Vec3(0.0, 0.0, 0.0), 0.0, radius)
 
 
 @kernel
-def lift_feet(
-    c: int, dt: float, turn: float, pose: PlanPose, state: Any, command: Any, tables: Any,
-    settings: Any, env: Any, plan_settings: Any, scratch: Any,
-) -> None:  # fmt: skip
-    """Let the feet whose sector the needle has entered leave the ground, if they find a place.
+def note_standing(c: int, dt: float, turn: float, state: Any, tables: Any, settings: Any,
+    scratch: Any) -> float:  # fmt: skip
+    """Note in `scratch.held` which feet need not step; return how far back landings count, cycles.
 
-    A foot may lift late, inside a window of its disk; never where that would leave fewer feet down
-    than the gait's own minimum. One that finds no place holds its own and looks farther next time.
-    `turn` is how far the needle turned in this step, cycles.
+    `turn` is how far the needle turned in this step, cycles: feet that land in this step count as
+    standing already, so that feet can change places.
     """
     moving = is_moving(c, state, tables)
-    # Feet that land in this step count as standing already, so that feet can change places.
     landing = turn
     for k in range(state.swinging.shape[1]):
         scratch.held[k] = not moving and not off_place(c, k, state, tables, settings)
         gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
         if state.swinging[c, k] and gone < 0.0 and wished_progress(c, k, dt, state) < 1.0:
             landing = 0.0
-    while True:
-        k = next_foot_to_lift(
-            state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
-            state.stood[c], scratch.held, state.least_down[c], settings.late_lift, landing,
-        )  # fmt: skip
-        if k < 0:
-            break
-        scratch.held[k] = True
-        try_lift(
-            c, k, dt, lift_phase(state.needle[c], turn, state.swing_start[c, k]),
-            seconds_to_touchdown(c, k, state), pose, state, command, tables, settings, env,
-            plan_settings, scratch,
-        )  # fmt: skip
-    lift_out_of_turn(
-        c, dt, pose, state, command, tables, settings, env, plan_settings, scratch
-    )  # fmt: skip
+    return landing
 
 
 @kernel
-def lift_out_of_turn(
-    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any,
-    settings: Any, env: Any, plan_settings: Any, scratch: Any,
-) -> None:  # fmt: skip
-    """Let the one foot that most holds the body back take a quick step outside of its sector.
+def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
+    """Return the foot that may take a quick step outside of its sector; as many as feet: none.
 
-    That is a foot whose leg is stretched to its end, on a body that its legs have slowed down: it
-    missed its turn because it found no place then. Where too few feet are down it must wait.
+    That is the one that most holds the body back: its leg is stretched to its end, on a body that
+    its legs have slowed down, because it missed its turn. Where too few feet are down it waits.
     """
-    if state.hurry[c] < OUT_OF_TURN_HURRY:
-        return
-    down = 0
     # No foot: not a literal, or all that is called with it would be compiled twice.
     count = state.swinging.shape[1]
     worst = count
+    if state.hurry[c] < OUT_OF_TURN_HURRY:
+        return int(count)
+    down = 0
     most = OUT_OF_TURN_STRETCH
     for k in range(count):
         if state.swinging[c, k]:
@@ -158,10 +124,21 @@ def lift_out_of_turn(
         if stretch > most:
             most = stretch
             worst = k
-    if worst == count or down <= state.least_down[c]:
-        return
-    seconds = state.swing_extent[c, worst] / (FASTEST_CATCH_UP * state.cycle_rate[c])
-    try_lift(
-        c, worst, dt, state.needle[c], seconds, pose, state, command, tables, settings, env,
-        plan_settings, scratch,
-    )  # fmt: skip
+    return int(worst if down > state.least_down[c] else count)
+
+
+@kernel
+def leave_ground(c: int, k: int, begun: float, state: Any, scratch: Any) -> None:
+    """Put a foot on the path just planned, whose time begins at the needle's phase `begun`."""
+    state.swinging[c, k] = True
+    state.airborne[c, k] = 0.0
+    begin_swing(c, k, begun, 0.0, state, scratch)
+    state.waiting[c, k] = 0.0
+
+
+@kernel
+def wait_for_place(c: int, k: int, dt: float, preferred: Vec3, state: Any, env: Any) -> None:
+    """Note for how long a foot has found no place, and where it would have liked to land."""
+    state.waiting[c, k] += dt
+    height, _ = surface(env, preferred.x, preferred.z)
+    store_vec3(state.wish[c, k], Vec3(preferred.x, height, preferred.z))

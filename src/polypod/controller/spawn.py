@@ -8,7 +8,7 @@ from polypod.body.pose import wished_height
 from polypod.body.reach import body_within_reach
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
-from polypod.controller.feet import plan_foot, rest_offset
+from polypod.controller.feet import Errand, plan_foot, rest_offset
 from polypod.controller.settle import feet_fit, wish_feet
 from polypod.controller.steering import plan_pose
 from polypod.environment.table import surface
@@ -43,11 +43,11 @@ def stand_feet(
         height, _ = surface(env, x, z)
         above = height + FROM_ABOVE * tables.legs.length[k]
         store_vec3(state.foot[c, k], Vec3(x, above, z))
+        still = Vec3(0.0, 0.0, 0.0)
+        errand = Errand(Vec3(x, height, z), 0.0, still, 0.0, radius * tables.legs.length[k])
         if not plan_foot(
-            c, k, 0.0, pose, Vec3(x, height, z), 0.0, Vec3(0.0, 0.0, 0.0), 0.0,
-            radius * tables.legs.length[k],
-            state, command, tables, settings, env, plan_settings, scratch,
-        ):  # fmt: skip
+            c, k, 0.0, pose, errand, state, command, tables, settings, env, plan_settings, scratch
+        ):
             return False
         for axis in range(3):
             state.foot[c, k, axis] = state.foot_target[c, k, axis]

@@ -189,6 +189,25 @@ def plan_pose(c: int, state: Any) -> PlanPose:
 
 
 @kernel
+def store_pose(c: int, pose: PlanPose, state: Any) -> None:
+    """Keep the pose at which steering wants the body at the end of the step."""
+    state.steered[c, 0] = pose.x
+    state.steered[c, 1] = pose.z
+    state.steered[c, 2] = pose.heading
+    state.steered[c, 3] = pose.turn_rate
+    state.steered[c, 4] = pose.speed
+    state.steered[c, 5] = pose.waypoint
+    state.steered[c, 6] = pose.detour
+
+
+@kernel
+def load_pose(c: int, state: Any) -> PlanPose:
+    """Return the pose that `store_pose` kept."""
+    kept = state.steered[c]
+    return PlanPose(kept[0], kept[1], kept[2], kept[3], kept[4], kept[5], kept[6])
+
+
+@kernel
 def predict(
     pose: PlanPose, seconds: float, c: int, command: Any, tables: Any, settings: Any
 ) -> PlanPose:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.controller.feet import plan_foot, preferred_footprint
-from polypod.controller.steering import PlanPose
+from polypod.controller.feet import Errand
 from polypod.gait.needle import progress_since_lift, swing_progress
 from polypod.math.quat import Quat, load_quat, slerp
 from polypod.math.vec3 import Vec3, length_plan, load_vec3
@@ -69,46 +68,51 @@ def swing_time_left(c: int, k: int, state: Any) -> float:
 
 
 @kernel
-def replan_feet(
-    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
-    env: Any, plan_settings: Any, scratch: Any,
-) -> None:  # fmt: skip
-    """Plan swinging feet anew whose preferred place has moved, or whose body holds them back.
+def wishes_new_plan(
+    c: int, k: int, preferred: Vec3, state: Any, tables: Any, settings: Any
+) -> bool:
+    """Return whether a swinging foot's preferred place has moved, or its body holds it back."""
+    moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
+    # Planned anew in every frame, a foot would for ever be at the slow start of its way.
+    wanted = 1.0 if state.swing_progress[c, k] > SETTLED else UNSETTLED
+    held_up = state.waiting[c, k] * state.cycle_rate[c] > HELD_UP
+    far = moved > wanted * settings.replan_distance * tables.legs.length[k]
+    return bool(far or held_up)
+
+
+@kernel
+def way_on(c: int, k: int, preferred: Vec3, left: float, radius: float, state: Any) -> Errand:
+    """Return what a swinging foot is to do from here on, in the `left` seconds of its swing.
 
     Position and velocity are continuous at the join: the new path starts along the present
     velocity and is launched at the present speed.
     """
-    for k in range(state.swinging.shape[1]):
-        if not state.swinging[c, k] or state.swing_progress[c, k] > settings.replan_until:
-            continue
-        left = swing_time_left(c, k, state)
-        preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)
-        moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
-        # Planned anew in every frame, a foot would for ever be at the slow start of its way.
-        wanted = 1.0 if state.swing_progress[c, k] > SETTLED else UNSETTLED
-        held_up = state.waiting[c, k] * state.cycle_rate[c] > HELD_UP
-        if moved <= wanted * settings.replan_distance * tables.legs.length[k] and not held_up:
-            continue
-        row = path_row(state.path, c, k)
-        along, rate = progress_on_path(
-            PROFILE_BELL, state.swing_progress[c, k], state.path_launch[c, k]
-        )
-        # Per unit of the old swing; the new one takes the share that is left.
-        share = 1.0 - state.swing_progress[c, k]
-        velocity = path_velocity(row.point, row.tangent, row.fraction, row.count[0], along) * (
-            rate * share
-        )
-        # The new path's length is not known yet: about what is left of the old one.
-        launch = rate * share / max(1.0 - along, 0.1)
-        speed = rate * share * row.length[0]
-        radius = settings.search_radius * tables.legs.length[k]
-        if plan_foot(
-            c, k, dt, pose, preferred, left, velocity, launch, radius,
-            state, command, tables, settings, env, plan_settings, scratch,
-        ):  # fmt: skip
-            launch = speed / max(scratch.path.length[0], 1e-12)
-            begin_swing(c, k, state.needle[c], launch, state, scratch)
-            state.waiting[c, k] = 0.0
+    row = path_row(state.path, c, k)
+    along, rate = progress_on_path(
+        PROFILE_BELL, state.swing_progress[c, k], state.path_launch[c, k]
+    )
+    # Per unit of the old swing; the new one takes the share that is left.
+    share = 1.0 - state.swing_progress[c, k]
+    velocity = path_velocity(row.point, row.tangent, row.fraction, row.count[0], along) * (
+        rate * share
+    )
+    # The new path's length is not known yet: about what is left of the old one.
+    launch = rate * share / max(1.0 - along, 0.1)
+    return Errand(preferred, left, velocity, launch, radius)
+
+
+@kernel
+def take_new_way(c: int, k: int, launch: float, state: Any, scratch: Any) -> None:
+    """Put a swinging foot on the path just planned, at the speed that it has.
+
+    `launch` is what the path was planned with, by the length that was left of the old one.
+    """
+    row = path_row(state.path, c, k)
+    along, _ = progress_on_path(PROFILE_BELL, state.swing_progress[c, k], state.path_launch[c, k])
+    speed = launch * max(1.0 - along, 0.1) * row.length[0]
+    launch = speed / max(scratch.path.length[0], 1e-12)
+    begin_swing(c, k, state.needle[c], launch, state, scratch)
+    state.waiting[c, k] = 0.0
 
 
 @kernel

@@ -1,9 +1,8 @@
 """`polypod bench`: what this machine does in a frame, beside P1's Table 1.
 
 All walking is World.step with full planning and inverse kinematics for every creature: no level of
-detail, nobody off screen. The parts of a frame are measured on the same walk, each run over all
-creatures before the next (`polypod.jobs.frame_parts`). Each figure is the best of three runs of the
-very same work: what else the machine does only adds.
+detail, nobody off screen. The parts of a frame are measured on the same walk, in one thread. Each
+figure is the best of three runs of the very same work: what else the machine does only adds.
 """
 
 from __future__ import annotations
@@ -212,14 +211,15 @@ def part_ms(frames: int) -> list[tuple[str, float]]:
     """Return the parts of a frame of 100 spiders in one thread and the mean time of each, ms."""
     import numpy as np
 
-    from polypod.jobs.frame_parts import PARTS, step_in_parts
+    from polypod.frame import PARTS, step_creatures
 
     best = np.full(len(PARTS), np.inf)
     for _ in range(REPEATS):
         world = started(crowd(100, 1))
         seconds = np.zeros(len(PARTS))
         for _ in range(frames):
-            step_in_parts(world, 1.0 / FPS, seconds)
+            for herd in world.herds:
+                step_creatures(herd, world.kernel_environment, 1.0 / FPS, 0, herd.count, 0, seconds)
         best = np.minimum(best, seconds)
     return list(zip(PARTS, (1e3 * best / frames).tolist(), strict=True))
 

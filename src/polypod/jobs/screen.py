@@ -9,8 +9,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from polypod.jobs import compile_rest
+
 # Measured on two cores of 2020; said to the user as a rough figure.
-COMPILE_SECONDS = 75
+COMPILE_SECONDS = 45
 # Where stderr is no terminal, a line so often says how far a long job is.
 LINE_EVERY_S = 10.0
 
@@ -123,10 +125,14 @@ def telling_of_compilation() -> Iterator[None]:
 
     listener = Listener()
     events.register("numba:compile", listener)
+    beside = compile_rest.start() if counter.first_run else None
     try:
         yield
     finally:
         events.unregister("numba:compile", listener)
+        if beside is not None:
+            beside.kill()
+            beside.wait()
         counter.finish()
 
 

@@ -1,0 +1,78 @@
+"""Footprints and paths for the feet that need them in a step (P1 3.2, Fig 5).
+
+One function calls the planner for them all: each function that does takes two seconds to compile.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from polypod.compute import kernel
+from polypod.controller.feet import plan_foot, preferred_footprint
+from polypod.controller.lift import (
+    foot_out_of_turn,
+    leave_ground,
+    note_standing,
+    seconds_to_touchdown,
+    wait_for_place,
+    way_off,
+)
+from polypod.controller.steering import PlanPose
+from polypod.controller.swing import (
+    FASTEST_CATCH_UP,
+    swing_time_left,
+    take_new_way,
+    way_on,
+    wishes_new_plan,
+)
+from polypod.gait.needle import lift_phase, next_foot_to_lift
+
+
+@kernel
+def plan_feet(
+    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any,
+    env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Plan swinging feet anew whose world changed, and let the feet whose turn it is lift.
+
+    A foot may lift late, inside a window of its disk; never where that would leave fewer feet down
+    than the gait's own minimum. One that finds no place holds its own and looks farther next time.
+    """
+    for k in range(state.swinging.shape[1]):
+        if not state.swinging[c, k] or state.swing_progress[c, k] > settings.replan_until:
+            continue
+        left = swing_time_left(c, k, state)
+        preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)
+        if not wishes_new_plan(c, k, preferred, state, tables, settings):
+            continue
+        radius = settings.search_radius * tables.legs.length[k]
+        errand = way_on(c, k, preferred, left, radius, state)
+        if plan_foot(
+            c, k, dt, pose, errand, state, command, tables, settings, env, plan_settings, scratch
+        ):
+            take_new_way(c, k, errand.launch, state, scratch)
+    landing = note_standing(c, dt, state.turn[c], state, tables, settings, scratch)
+    in_turn = True
+    while in_turn:
+        k = next_foot_to_lift(
+            state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
+            state.stood[c], scratch.held, state.least_down[c], settings.late_lift, landing,
+        )  # fmt: skip
+        in_turn = k >= 0
+        if not in_turn:
+            k = foot_out_of_turn(c, state, tables, scratch)
+            if k == state.swinging.shape[1]:
+                break
+        scratch.held[k] = True
+        begun = state.needle[c]
+        seconds = state.swing_extent[c, k] / (FASTEST_CATCH_UP * state.cycle_rate[c])
+        if in_turn:
+            begun = lift_phase(state.needle[c], state.turn[c], state.swing_start[c, k])
+            seconds = seconds_to_touchdown(c, k, state)
+        errand = way_off(c, k, seconds, pose, state, command, tables, settings)
+        if plan_foot(
+            c, k, dt, pose, errand, state, command, tables, settings, env, plan_settings, scratch
+        ):
+            leave_ground(c, k, begun, state, scratch)
+        else:
+            wait_for_place(c, k, dt, errand.preferred, state, env)

@@ -1,0 +1,152 @@
+"""One frame of a herd: the blocks of P1's Figures 2 and 5, in their order.
+
+Four kernels, each over a range of creatures: the table `PARTS` is the main loop. A creature writes
+only its own rows, so that neither the range nor the thread matters to what comes out.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from polypod.body.pose import update_tilt, wished_height
+from polypod.body.support import body_rotation, feet_plane
+from polypod.compute import kernel
+from polypod.controller.lift import any_off_place
+from polypod.controller.plan import plan_feet
+from polypod.controller.settle import advance_swings, settle_body
+from polypod.controller.steering import load_pose, move_body, note_pose, store_pose
+from polypod.controller.swing import shift_spacing
+from polypod.gait.advance import advance_gait
+from polypod.gait.needle import step_count
+from polypod.herd import Herd
+from polypod.ik.skeleton import pose_joints
+from polypod.math.vec3 import load_vec3
+from polypod.morphology.types import FloatArray
+
+# Longer steps than this are no frames that anybody watches.
+LONGEST_FRAME = 0.05
+
+
+@kernel
+def begin_frame(first: int, last: int, dt: float, state: Any) -> int:
+    """Divide each creature's frame into steps that miss no foot's event; return the most of them.
+
+    A needle that turns far in `dt` seconds goes in several: small fast creatures at film rates.
+    """
+    most = 1
+    for c in range(first, last):
+        state.frame[c] = min(dt, LONGEST_FRAME)
+        state.steps[c] = step_count(dt * state.cycle_rate[c], state.swing_extent[c])
+        most = max(most, state.steps[c])
+    return most
+
+
+@kernel
+def drive_creatures(
+    first: int, last: int, step: int, dt: float, state: Any, command: Any, tables: Any,
+    settings: Any, env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Turn the needle, and move the body on the plane as steering and the feet's feedback say."""
+    for c in range(first, last):
+        if step >= state.steps[c]:
+            continue
+        seconds = dt / state.steps[c]
+        # Feet spacing approaches what was asked for.
+        shift_spacing(c, seconds, state, command, tables, settings)
+        # Tempo, transition, needle.
+        restless = any_off_place(c, state, tables, settings)
+        state.turn[c] = advance_gait(
+            c, seconds, restless, state, command, tables, settings, scratch
+        )
+        store_pose(c, move_body(c, seconds, state, command, tables, settings, env), state)
+
+
+@kernel
+def plan_creatures(
+    first: int, last: int, step: int, dt: float, state: Any, command: Any, tables: Any,
+    settings: Any, env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Fill maps, and find footprints and paths, for the feet that need them."""
+    for c in range(first, last):
+        if step < state.steps[c]:
+            plan_feet(
+                c, dt / state.steps[c], load_pose(c, state), state, command, tables, settings, env,
+                plan_settings, scratch,
+            )  # fmt: skip
+
+
+@kernel
+def settle_creatures(
+    first: int, last: int, step: int, dt: float, state: Any, command: Any, tables: Any,
+    settings: Any, env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Put the body over its feet, as far as the legs reach, and carry the swinging feet along."""
+    for c in range(first, last):
+        if step >= state.steps[c]:
+            continue
+        seconds = dt / state.steps[c]
+        pose = load_pose(c, state)
+        # Tilt and height over the feet and over what lies beneath.
+        plane = feet_plane(c, state, tables)
+        update_tilt(c, seconds, plane, state, tables, settings)
+        lean = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+        height = wished_height(
+            c, seconds, pose, plane, lean, state, command, tables, settings, env, scratch
+        )
+        # The body goes as far as its legs allow, and the swinging feet with it.
+        before = load_vec3(state.position[c])
+        settle_body(c, seconds, pose, height, state, tables, env, scratch)
+        note_pose(c, seconds, pose, before, state, command, tables, settings)
+        advance_swings(c, seconds, state, scratch, env)
+
+
+@kernel
+def pose_creatures(
+    first: int, last: int, step: int, dt: float, state: Any, command: Any, tables: Any,
+    settings: Any, env: Any, plan_settings: Any, scratch: Any,
+) -> None:  # fmt: skip
+    """Pose every joint: inverse kinematics for the legs, the rest rides along."""
+    for c in range(first, last):
+        if step < state.steps[c]:
+            pose_joints(c, state, tables, scratch)
+
+
+PARTS = {
+    "gait and steering": drive_creatures,
+    "maps, footprints and paths": plan_creatures,
+    "body": settle_creatures,
+    "inverse kinematics": pose_creatures,
+}
+
+
+def step_creatures(
+    herd: Herd,
+    environment: Any,
+    dt: float,
+    first: int,
+    last: int,
+    worker: int,
+    spent: FloatArray | None = None,
+) -> None:
+    """Advance creatures `first` to `last` - 1 of a herd by `dt` seconds.
+
+    Args:
+        herd: the herd.
+        environment: the environment's table, as kernels take it.
+        dt: seconds.
+        first: row of the first creature.
+        last: the row after the last.
+        worker: whose working memory is used.
+        spent: [4] where each part's processor time is added, seconds.
+    """
+    arguments = (
+        herd.kernel_state, herd.kernel_command, herd.kernel_tables, herd.kernel_settings,
+        environment, herd.kernel_plan, herd.scratch(worker),
+    )  # fmt: skip
+    for step in range(begin_frame(first, last, dt, herd.kernel_state)):
+        for number, part in enumerate(PARTS.values()):
+            began = time.thread_time()
+            part(first, last, step, dt, *arguments)
+            if spent is not None:
+                spent[number] += time.thread_time() - began
