@@ -36,8 +36,10 @@ def is_open(env: EnvironmentTable, request: StepRequest, near: Any) -> bool:
     around = request.search_radius + DETOUR * request.leg_length + foot
     around += math.hypot(start.x - wanted.x, start.z - wanted.z)
     x0 = wanted.x - around
+    x1 = wanted.x + around
     z0 = wanted.z - around
-    return obstacles_near(env, x0, x0 + 2.0 * around, z0, z0 + 2.0 * around, LOWEST, near) == 0
+    z1 = wanted.z + around
+    return obstacles_near(env, x0, z0, x1, z1, LOWEST, near) == 0
 
 
 @kernel
