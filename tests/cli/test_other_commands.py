@@ -118,6 +118,8 @@ def test_signals_to_a_long_walk(folder: Path, number: signal.Signals, code: int)
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        # Who runs the tests in the background ignores interrupts, and children inherit that.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     time.sleep(2.0)
     run.send_signal(number)

@@ -24,6 +24,8 @@ LARGEST_BOB = 0.02
 # them; and for legs that else find no place.
 SHALLOW = 0.15
 DEEP = 0.35
+# What `follow` lags behind a steady climb by, shares of its time.
+LAG = 0.75
 
 
 @kernel
@@ -182,4 +184,8 @@ def wished_height(
         extra,
         highest_ahead(c, base, pose, turn, plane, state, command, tables, settings, env),
     )
-    return base + follow(state.lift[c], extra, seconds, dt) + bob(c, state, tables, settings)
+    # On a steady climb the filter would lag by three of its time constants.
+    climb = state.tilt[c, 0, 0] / (settings.tilt_share * tables.tilt_scale) * state.speed[c]
+    climb *= math.cos(command.travel[c])
+    lead = LAG * seconds * climb
+    return follow(state.lift[c], base + extra + lead, seconds, dt) + bob(c, state, tables, settings)

@@ -106,6 +106,7 @@ def settle_body(
     # A body that was held back does not jump to where it would be by now.
     pendulum = tables.pendulum_time
     most = FASTEST_RISE * tables.leg_length / pendulum * dt
+    asked = height
     height = min(before.y + most, max(before.y - most, height))
     angle = angle_of(turn * conjugate(turn_before))
     turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
@@ -123,6 +124,8 @@ def settle_body(
             state.heading[c] = wrapped(
                 heading_before + share * wrapped(pose.heading - heading_before)
             )
+            # What smooths the height goes on from where the body is, or it would snap back.
+            state.lift[c, 0] += position.y - asked
             break
 
 
