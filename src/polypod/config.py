@@ -57,7 +57,7 @@ class Settings:
     height_smoothing: float = 0.35
     """Time in which the body's height follows what it walks over, gait cycles."""
 
-    tilt_smoothing: float = 0.30
+    tilt_smoothing: float = 0.6
     """Time in which pitch and roll follow the feet, gait cycles."""
 
     tilt_share: float = 0.85

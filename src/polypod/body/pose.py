@@ -15,6 +15,7 @@ from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface
 from polypod.gait.tempo import GRAVITY
+from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat, load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3
 
@@ -26,6 +27,11 @@ SHALLOW = 0.15
 DEEP = 0.35
 # What `follow` lags behind a steady climb by, shares of its time.
 LAG = 0.75
+# So far ahead legs are looked at that will stretch, shares of half a cycle, and how often. A foot
+# is taken to stand so many cycles longer than its disk says: it may find no place at once.
+SOON = 0.6
+SOON_SAMPLES = 2
+LATE = 0.1
 
 
 @kernel
@@ -101,8 +107,48 @@ def highest(
 
 
 @kernel
+def rise_along(pose: PlanPose, x: float, z: float, plane: FeetPlane) -> float:
+    """Return by how much the feet's plane rises from a pose to another place, metres."""
+    dx = x - pose.x
+    dz = z - pose.z
+    sine = math.sin(pose.heading)
+    cosine = math.cos(pose.heading)
+    forward = dx * sine + dz * cosine
+    left = dx * cosine - dz * sine
+    return plane.slope_forward * forward + plane.slope_left * left
+
+
+@kernel
+def highest_soon(
+    c: int, base: float, pose: PlanPose, there: PlanPose, turn: Quat, plane: FeetPlane,
+    state: Any, command: Any, tables: Any,
+) -> float:  # fmt: skip
+    """Return how high above `base` the body may be so that standing legs reach while they stand.
+
+    Looked at as far ahead as the filter lags: the body has sunk when a leg stretches, and is not
+    pulled down by it. `there` is the pose half a cycle ahead.
+    """
+    most = math.inf
+    for i in range(1, SOON_SAMPLES + 1):
+        share = SOON * i / SOON_SAMPLES
+        x = pose.x + (there.x - pose.x) * share
+        z = pose.z + (there.z - pose.z) * share
+        later = PlanPose(x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.detour)
+        rise = rise_along(pose, x, z, plane)
+        for k in range(state.swinging.shape[1]):
+            until = wrap_phase(state.swing_start[c, k] - state.needle[c])
+            if state.swinging[c, k] or until < 0.5 * share - LATE:
+                continue
+            place = load_vec3(state.foot[c, k])
+            foot_turn = load_quat(state.foot_rotation[c, k])
+            over = highest_over(k, place, foot_turn, later, turn, tables)
+            most = min(most, over - base - rise)
+    return max(most, -SHALLOW * command.body_height[c])
+
+
+@kernel
 def highest_ahead(
-    c: int, base: float, pose: PlanPose, turn: Quat, plane: FeetPlane,
+    c: int, base: float, pose: PlanPose, there: PlanPose, turn: Quat, plane: FeetPlane,
     state: Any, command: Any, tables: Any, settings: Any, env: Any,
 ) -> float:  # fmt: skip
     """Return how high above `base` the body may be so that its legs reach down at their next steps.
@@ -110,16 +156,8 @@ def highest_ahead(
     Each foot is taken to land half a cycle from now, half a stance ahead of its rest place under
     the body as predicted: at the edge of a step down the body has sunk when its feet get there.
     """
-    if state.cycle_rate[c] <= 0.0:
-        return 0.0
     cycle = 1.0 / state.cycle_rate[c]
-    there = predict(pose, 0.5 * cycle, c, command, tables, settings)
-    dx = there.x - pose.x
-    dz = there.z - pose.z
-    sine = math.sin(pose.heading)
-    cosine = math.cos(pose.heading)
-    rise = plane.slope_forward * (dx * sine + dz * cosine)
-    rise += plane.slope_left * (dx * cosine - dz * sine)
+    rise = rise_along(pose, there.x, there.z, plane)
     course = there.heading + command.travel[c]
     most = math.inf
     for k in range(state.swinging.shape[1]):
@@ -169,21 +207,19 @@ def wished_height(
     that it comes and goes with continuous acceleration.
     """
     seconds = settings.height_smoothing * cycle_seconds(c, state, tables)
-    dx = pose.x - state.position[c, 0]
-    dz = pose.z - state.position[c, 2]
-    sine = math.sin(pose.heading)
-    cosine = math.cos(pose.heading)
     base = plane.height + command.body_height[c]
-    base += plane.slope_forward * (dx * sine + dz * cosine)
-    base += plane.slope_left * (dx * cosine - dz * sine)
+    base -= rise_along(pose, state.position[c, 0], state.position[c, 2], plane)
     ahead = abs(state.speed[c]) * seconds
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
     extra = max(0.0, least - base)
     extra = min(extra, highest(c, base, pose, turn, state, command, tables))
-    extra = min(
-        extra,
-        highest_ahead(c, base, pose, turn, plane, state, command, tables, settings, env),
-    )
+    if state.cycle_rate[c] > 0.0:
+        there = predict(pose, 0.5 / state.cycle_rate[c], c, command, tables, settings)
+        soon = highest_soon(c, base, pose, there, turn, plane, state, command, tables)
+        landing = highest_ahead(
+            c, base, pose, there, turn, plane, state, command, tables, settings, env
+        )
+        extra = min(extra, soon, landing)
     # On a steady climb the filter would lag by three of its time constants.
     climb = state.tilt[c, 0, 0] / (settings.tilt_share * tables.tilt_scale) * state.speed[c]
     climb *= math.cos(command.travel[c])

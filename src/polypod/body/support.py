@@ -15,8 +15,10 @@ from polypod.math.quat import Quat, from_axis_angle, from_heading
 from polypod.math.vec3 import Vec3, load_vec3, mix
 
 # Feet that stand nearly in a line say little about the slope across it: the fit leans to level
-# ground by a spread of so many leg lengths.
-LEVEL_SPREAD = 0.08
+# ground by a spread of so many leg lengths. More across than along: a trunk on a narrow track stays
+# upright where one foot is on a crate, as a horse's does.
+LEVEL_LENGTH = 0.08
+LEVEL_WIDTH = 0.2
 
 
 class FeetPlane(NamedTuple):
@@ -59,9 +61,8 @@ def feet_plane(c: int, state: Any, tables: Any) -> FeetPlane:
         mean_z += (x * sine + z * cosine) / count
         mean_x += (x * cosine - z * sine) / count
         mean_y += place.y / count
-    level = (LEVEL_SPREAD * tables.leg_length) ** 2
-    zz = level
-    xx = level
+    zz = (LEVEL_LENGTH * tables.leg_length) ** 2
+    xx = (LEVEL_WIDTH * tables.leg_length) ** 2
     zx = 0.0
     zy = 0.0
     xy = 0.0
