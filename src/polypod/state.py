@@ -86,7 +86,7 @@ class HerdState(NamedTuple):
     plane_height: FloatArray  # [C] m, world: the plane through the feet, under the body centre
     slope: FloatArray  # [C, 2] of the plane through the feet: body z (pitch), body x (roll)
     tilt: FloatArray  # [C, 2, 3] smoothed slope, its rate, and the input's low pass
-    lift: FloatArray  # [C, 3] smoothed height above the feet's plane, its rate, low pass, m
+    lift: FloatArray  # [C, 3] smoothed height of the body centre, world, its rate, low pass, m
     joint_position: FloatArray  # [C, J, 3]
     joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
     foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it

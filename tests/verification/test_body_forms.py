@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from polypod.body.hull import hull_height, insert_sorted
 from polypod.body.smoothing import follow
-from polypod.body.support import LEVEL_SPREAD, feet_plane
+from polypod.body.support import LEVEL_LENGTH, LEVEL_WIDTH, feet_plane
 from polypod.config import Settings
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
@@ -116,14 +116,14 @@ def test_the_plane_through_planar_feet(
     plane = feet_plane(0, herd.kernel_state, herd.kernel_tables)
     place = np.stack([forward - forward.mean(), left - left.mean()])
     spread = place @ place.T / len(forward)
-    level = (LEVEL_SPREAD * herd.tables.leg_length) ** 2
-    leaned = np.linalg.solve(spread + level * np.eye(2), spread @ np.array(slopes))
+    level = np.diag([LEVEL_LENGTH**2, LEVEL_WIDTH**2]) * herd.tables.leg_length**2
+    leaned = np.linalg.solve(spread + level, spread @ np.array(slopes))
     assert (plane.slope_forward, plane.slope_left) == pytest.approx(tuple(leaned), abs=1e-12)
     mean = state.foot[0, :, 1].mean()
     height = mean - leaned @ np.array([forward.mean(), left.mean()])
     assert plane.height == pytest.approx(height, abs=1e-12)
     # The lean is small: a spider's feet say well which way the ground slopes.
-    assert leaned == pytest.approx(np.array(slopes), abs=0.05 * max(map(abs, slopes)))
+    assert leaned == pytest.approx(np.array(slopes), abs=0.15 * max(map(abs, slopes)))
 
 
 def test_a_landing_foot_does_not_jerk_the_plane(herd: Herd) -> None:

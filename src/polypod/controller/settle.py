@@ -125,7 +125,8 @@ def settle_body(
                 heading_before + share * wrapped(pose.heading - heading_before)
             )
             # What smooths the height goes on from where the body is, or it would snap back.
-            state.lift[c, 0] += position.y - asked
+            if abs(position.y - asked) > TOLERANCE * tables.leg_length:
+                state.lift[c, 0] += position.y - asked
             break
 
 
