@@ -20,6 +20,7 @@ from polypod.ik.table import build_ik_table
 from polypod.report.arrays import conjugate_all, multiply_all, runs_of, widest
 from polypod.report.ground import Ground
 from polypod.report.joints import leg_rows
+from polypod.report.played import soles_played
 from polypod.report.record import Recording, bones
 from polypod.rigs.export import glb_bytes
 from polypod.rigs.gltf import GltfDocument
@@ -61,8 +62,7 @@ def play(recording: Recording) -> Played:
     playback = Playback(GltfDocument.from_bytes(glb_bytes(recording), "walk.glb"))
     times = recording.time.astype(np.float32).astype(np.float64)
     world = playback.world_matrices(times)
-    offset = np.append(morphology.foot_offset, np.ones((len(morphology.foot_offset), 1)), axis=1)
-    sole = np.einsum("fkij,kj->fki", world[:, morphology.foot_node], offset)[:, :, :3]
+    sole = soles_played(recording)
     local = playback.local_matrices(times)[:, morphology.joint_node, :3, :3]
     local = local / np.linalg.norm(local, axis=2, keepdims=True)
     return Played(sole, world[:, morphology.joint_node][..., :3, 3], local)

@@ -27,6 +27,7 @@ ANY = settings(
 OPTIONS = [
     "walk", "rig", "gait", "--leg", "--spine", "--forward", "--height", "--body-height", "--scene",
     "--gait", "--speed", "--path", "--seconds", "--fps", "--seed", "-o", "--record", "--report",
+    "--plots",
     "--rig", "--legs", "--duty", "--check", "--help", "--version", "--",
 ]  # fmt: skip
 VALUES = [

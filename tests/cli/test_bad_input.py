@@ -83,6 +83,7 @@ BAD = [
     (["walk", "text.glb", "-o", "text.glb"], ["text.glb", "read by this run"]),
     (["walk", "-o", "x" * 300 + ".glb"], [".glb"]),
     (["walk", "--record", "run.csv"], ["--record run.csv", ".npz"]),
+    (["walk", "--plots", "plots.txt"], ["--plots plots.txt", ".svg"]),
     (["walk", "--report", "report.txt"], ["--report report.txt", ".json"]),
     (["rig"], ["RIG"]),
     (["rig", "nosuch.glb"], ["nosuch.glb"]),

@@ -24,9 +24,10 @@ def test_writes_everything_asked_for(folder: Path) -> None:
     run = polypod(
         "walk", "spider", "--scene", "crates.toml", *SHORT,
         "-o", "walk.glb", "-o", "walk.png", "--record", "run.npz", "--report", "report.json",
+        "--plots", "plots.svg",
     )  # fmt: skip
     assert run.code == 0, run
-    for name in ("walk.glb", "walk.png", "run.npz", "report.json"):
+    for name in ("walk.glb", "walk.png", "run.npz", "report.json", "plots.svg"):
         assert name in run.out
     record = read_record(folder / "run.npz")
     assert len(record.time) == 16
@@ -37,6 +38,8 @@ def test_writes_everything_asked_for(folder: Path) -> None:
     assert report["creature"] == "spider"
     assert report["failures"] == []
     assert report["frames"] == 16
+    assert 0.0 <= report["played_stance_slip_of_leg"] <= 1e-3
+    assert Path("plots.svg").read_text().count("<path") > 50
     with Image.open("walk.png") as picture:
         assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 100
     assert not [path for path in folder.iterdir() if path.name.startswith(".")]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from polypod.errors import SettingError
-from polypod.jobs.outputs import judge_output
+from polypod.jobs.outputs import judge_distinct
 from polypod.jobs.rig_options import load_given_rig
 from polypod.jobs.values import filled, number, whole
 
@@ -93,12 +93,8 @@ def check(gait: Gait) -> str:
 
 
 def _judge(given: argparse.Namespace) -> None:
-    seen = {Path(given.gait).absolute()}
-    for name in given.out:
-        path = judge_output("-o", name, (".png", ".toml")).absolute()
-        if path in seen:
-            raise SettingError(f"-o {name}: is read by this run or named twice; name another file")
-        seen.add(path)
+    asked = [("-o", name, (".png", ".toml")) for name in given.out]
+    judge_distinct(asked, [Path(given.gait)])
 
 
 def _find(given: argparse.Namespace) -> tuple[Gait, tuple[str, ...]]:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polypod.report.record import Recording
 
 WALK_SUFFIXES = (".glb", ".png")
+PLOT_SUFFIXES = (".png", ".svg", ".pdf")
 
 
 @dataclass(frozen=True)
@@ -26,10 +27,15 @@ class Outputs:
     png: tuple[Path, ...] = ()
     record: Path | None = None
     report: Path | None = None
+    plots: Path | None = None
 
 
 def judge_outputs(
-    out: Sequence[str], record: str | None, report: str | None, inputs: Iterable[Path]
+    out: Sequence[str],
+    record: str | None,
+    report: str | None,
+    plots: str | None,
+    inputs: Iterable[Path],
 ) -> Outputs:
     """Return where to write.
 
@@ -40,18 +46,31 @@ def judge_outputs(
     asked: list[tuple[str, str, tuple[str, ...]]] = [("-o", name, WALK_SUFFIXES) for name in out]
     asked += [("--record", record, (".npz",))] if record is not None else []
     asked += [("--report", report, (".json",))] if report is not None else []
+    asked += [("--plots", plots, PLOT_SUFFIXES)] if plots is not None else []
+    judge_distinct(asked, inputs)
+    return Outputs(
+        glb=tuple(Path(name) for name in out if Path(name).suffix.lower() == ".glb"),
+        png=tuple(Path(name) for name in out if Path(name).suffix.lower() == ".png"),
+        record=None if record is None else Path(record),
+        report=None if report is None else Path(report),
+        plots=None if plots is None else Path(plots),
+    )
+
+
+def judge_distinct(
+    asked: Iterable[tuple[str, str, tuple[str, ...]]], inputs: Iterable[Path]
+) -> None:
+    """Judge each output: option, name, suffixes.
+
+    Raises:
+        SettingError: see `judge_output`; one file named twice, or one that the run reads.
+    """
     taken = {path.absolute(): "is read by this run" for path in inputs}
     for option, name, suffixes in asked:
         path = judge_output(option, name, suffixes).absolute()
         if path in taken:
             raise SettingError(f"{option} {name}: {taken[path]}; name another file")
         taken[path] = "is named twice"
-    return Outputs(
-        glb=tuple(Path(name) for name in out if Path(name).suffix.lower() == ".glb"),
-        png=tuple(Path(name) for name in out if Path(name).suffix.lower() == ".png"),
-        record=None if record is None else Path(record),
-        report=None if report is None else Path(report),
-    )
 
 
 def judge_output(option: str, name: str, suffixes: Sequence[str]) -> Path:
@@ -91,6 +110,7 @@ def write_outputs(
 ) -> list[Path]:
     """Write all files and return their paths; each is there whole or not at all."""
     from polypod.report.figures import write_report
+    from polypod.report.plots import write_plots
     from polypod.report.record import write_record
     from polypod.report.strip import write_strip
     from polypod.rigs.export import write_glb
@@ -108,6 +128,10 @@ def write_outputs(
     if outputs.report is not None:
         for path, report in zip(numbered(outputs.report, count), reports, strict=True):
             write_report(report, path)
+            written.append(path)
+    if outputs.plots is not None:
+        for path, recording in zip(numbered(outputs.plots, count), recordings, strict=True):
+            write_plots(recording, path)
             written.append(path)
     for target in outputs.png:
         note(f"drawing {target}")

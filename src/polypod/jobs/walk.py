@@ -81,11 +81,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--report", type=filled, metavar="REPORT.json", help="how good the walk is, in numbers"
     )
+    parser.add_argument(
+        "--plots",
+        type=filled,
+        metavar="PLOTS.png|.svg|.pdf",
+        help="the walk as curves: stances, heights of body and soles, turns of joints",
+    )
 
 
 def run(given: argparse.Namespace) -> int:
     """Judge everything, walk, write, and say how it went."""
-    outputs = judge_outputs(given.out, given.record, given.report, _inputs(given))
+    outputs = judge_outputs(given.out, given.record, given.report, given.plots, _inputs(given))
     from polypod.environment.scene import read_scene
     from polypod.jobs.cast import cast_roles, walking_seconds
 
@@ -99,7 +105,9 @@ def run(given: argparse.Namespace) -> int:
         warn(f"{scene.path} has pushes, which this version does not simulate; it walks unpushed")
     with telling_of_compilation():
         recordings, environment = _walk(roles, scene, seconds, given.fps)
-        reports = _judge_walks(roles, recordings, environment, seconds)
+        reports = _judge_walks(
+            roles, recordings, environment, seconds, bool(given.report and outputs.glb)
+        )
         written = write_outputs(outputs, recordings, environment, reports)
     _sum_up(reports, written)
     return 0
@@ -152,10 +160,15 @@ def _walk(
 
 
 def _judge_walks(
-    roles: list[Role], recordings: list[Recording], environment: Environment, seconds: float
+    roles: list[Role],
+    recordings: list[Recording],
+    environment: Environment,
+    seconds: float,
+    played: bool,
 ) -> list[dict[str, object]]:
-    """Return what goes into each creature's report."""
-    from polypod.report.figures import measure
+    """Return what goes into each creature's report, with what a player of its GLB will show."""
+    from polypod.report.figures import measure, measure_played
+    from polypod.report.played import soles_played
     from polypod.report.verdict import failures, remarks
 
     reports: list[dict[str, object]] = []
@@ -164,6 +177,8 @@ def _judge_walks(
         for role, recording in zip(who, recordings, strict=True):
             asked = min(role.speed * seconds, role.way)
             figures = measure(recording, environment.table, commanded_distance_m=asked)
+            if played:
+                figures |= measure_played(recording, environment.table, soles_played(recording))
             reports.append(
                 {
                     "creature": role.morphology.name,

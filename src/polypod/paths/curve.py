@@ -116,13 +116,6 @@ def path_velocity(point: Any, tangent: Any, fraction: Any, count: int, progress:
 
 
 @kernel
-def bell_profile(time: float) -> float:
-    """Return the speed at `time` in [0, 1] of a swing, mean 1: minimum jerk, peak 1.875."""
-    inside = min(max(time, 0.0), 1.0)
-    return 30.0 * inside * inside * (1.0 - inside) * (1.0 - inside)
-
-
-@kernel
 def swing_progress(profile: int, time: float, start_speed: float) -> tuple[float, float]:
     """Return the progress at `time` of a swing, and its rate; both times and rates per swing.
 

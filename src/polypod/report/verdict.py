@@ -89,21 +89,5 @@ def _broken(figures: Mapping[str, object], limits: tuple[Limit, ...] | list[Limi
     return sentences
 
 
-def format_table(figures: Mapping[str, object]) -> str:
-    """Return figures as lines of text, names left, values right."""
-    width = max(map(len, figures), default=0)
-    return "\n".join(f"{name:<{width}}  {_text(value)}" for name, value in figures.items())
-
-
-def _text(value: object) -> str:
-    if value is None:
-        return "-"
-    if isinstance(value, int | float):
-        return _number(value)
-    if isinstance(value, list):
-        return " ".join(_text(item) for item in value)
-    return str(value)
-
-
 def _number(value: float) -> str:
     return str(value) if isinstance(value, int) else f"{value:.4g}"
