@@ -84,9 +84,19 @@ def _broken(figures: Mapping[str, object], limits: tuple[Limit, ...] | list[Limi
         if not isinstance(value, int | float) or limit.least <= value <= limit.most:
             continue
         under = value < limit.least
-        bound = f"under {_number(limit.least)}" if under else f"over {_number(limit.most)}"
-        sentences.append(f"{limit.words.format(_number(value))}, {bound}")
+        bound = limit.least if under else limit.most
+        words = limit.words.format(_beside(value, bound))
+        sentences.append(f"{words}, {'under' if under else 'over'} {_number(bound)}")
     return sentences
+
+
+def _beside(value: float, bound: float) -> str:
+    """Return a number with as many digits as tell it from a bound."""
+    for digits in range(4, 17):
+        text = f"{value:.{digits}g}"
+        if isinstance(value, int) or float(text) != bound:
+            break
+    return str(value) if isinstance(value, int) else text
 
 
 def _number(value: float) -> str:

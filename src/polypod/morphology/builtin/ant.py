@@ -6,7 +6,7 @@ import numpy as np
 
 from polypod.morphology.builtin.sculpture import GLOSS, SHELL, BuiltIn, Paint, Sculpture, plain
 from polypod.morphology.builtin.shapes import body, ellipsoid, limb, plated
-from polypod.morphology.builtin.stance import folded_leg, outward_side
+from polypod.morphology.builtin.stance import outward_side, spread_leg
 
 RUST, MAHOGANY, PITCH, AMBER, INK = "#8a3a1c", "#5a2413", "#22140f", "#b0683a", "#0b0909"
 
@@ -59,14 +59,11 @@ def build() -> BuiltIn:
     _head(ant)
     _jaws(ant)
     _antennae(ant)
-    for number, (x, z, heading, distance, scale) in enumerate(LEGS, start=1):
-        hip = np.array([x, HIP_HEIGHT, z])
-        turn = np.radians(heading)
-        foot = hip * (1.0, 0.0, 1.0) + distance * np.array([np.sin(turn), 0.0, np.cos(turn)])
-        points = folded_leg(hip, foot, [scale * length for length in SEGMENTS], BENDS)
+    for number, leg in enumerate(LEGS, start=1):
+        points = spread_leg(leg, HIP_HEIGHT, SEGMENTS, BENDS)
         names = [f"LeftLeg{number}{segment}" for segment in SEGMENT_NAMES]
         ant.chain(names, points, "Body", marker=f"LeftLeg{number}Foot")
-        socket = ellipsoid(hip + SOCKET, (0.0, 0.0, 0.024), 0.024, 0.020, 7, 10)
+        socket = ellipsoid(points[0] + SOCKET, (0.0, 0.0, 0.024), 0.024, 0.020, 7, 10)
         ant.add(socket, "Body", plain(MAHOGANY), SHELL, both=True)
         patch = limb(points, LEG_PROFILE, sides=8, side=outward_side(points), corner=0.12)
         ant.add(patch, (*names, f"LeftLeg{number}Foot"), LEG_PAINT, SHELL, blend=0.12)

@@ -6,7 +6,7 @@ import numpy as np
 
 from polypod.morphology.builtin.sculpture import GLOSS, SHELL, BuiltIn, Paint, Sculpture, plain
 from polypod.morphology.builtin.shapes import body, ellipsoid, embossed, limb
-from polypod.morphology.builtin.stance import folded_leg, outward_side
+from polypod.morphology.builtin.stance import outward_side, spread_leg
 
 UP = np.array([0.0, 1.0, 0.0])
 BRICK, CORAL, OCHRE, CREAM, UMBER, INK = (
@@ -78,11 +78,8 @@ def build() -> BuiltIn:
     _shell(crab)
     _face(crab)
     _claw(crab)
-    for number, (x, z, heading, distance, scale) in enumerate(LEGS, start=1):
-        hip = np.array([x, HIP_HEIGHT, z])
-        turn = np.radians(heading)
-        foot = hip * (1.0, 0.0, 1.0) + distance * np.array([np.sin(turn), 0.0, np.cos(turn)])
-        points = folded_leg(hip, foot, [scale * length for length in SEGMENTS], BENDS)
+    for number, leg in enumerate(LEGS, start=1):
+        points = spread_leg(leg, HIP_HEIGHT, SEGMENTS, BENDS)
         names = [f"LeftLeg{number}{segment}" for segment in SEGMENT_NAMES]
         crab.chain(names, points, "Body", marker=f"LeftLeg{number}Foot")
         patch = limb(points, LEG_PROFILE, sides=8, side=outward_side(points), corner=0.08)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from polypod.morphology.builtin.sculpture import GLOSS, SHELL, BuiltIn, Paint, Sculpture, plain
 from polypod.morphology.builtin.shapes import body, ellipsoid, limb
-from polypod.morphology.builtin.stance import folded_leg, outward_side
+from polypod.morphology.builtin.stance import outward_side, spread_leg
 
 BARK, UMBER, SAND, INK, RUST = "#4f3a28", "#2e2118", "#a5845a", "#0c0a0a", "#6e4326"
 
@@ -60,11 +58,8 @@ def build() -> BuiltIn:
     spider.joint("Body", (0.0, 0.262, 0.0))
     spider.joint("Abdomen", (0.0, 0.266, -0.066), "Body")
     _trunk(spider)
-    for number, (x, z, heading, distance, scale) in enumerate(LEGS, start=1):
-        hip = np.array([x, HIP_HEIGHT, z])
-        turn = np.radians(heading)
-        foot = hip * (1.0, 0.0, 1.0) + distance * np.array([np.sin(turn), 0.0, np.cos(turn)])
-        points = folded_leg(hip, foot, [scale * length for length in SEGMENTS], BENDS)
+    for number, leg in enumerate(LEGS, start=1):
+        points = spread_leg(leg, HIP_HEIGHT, SEGMENTS, BENDS)
         names = [f"LeftLeg{number}{segment}" for segment in SEGMENT_NAMES]
         spider.chain(names, points, "Body", marker=f"LeftLeg{number}Foot")
         patch = limb(points, LEG_PROFILE, sides=8, side=outward_side(points), corner=0.12)

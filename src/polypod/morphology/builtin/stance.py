@@ -12,6 +12,25 @@ from polypod.morphology.builtin.curves import FloatArray
 HALVINGS = 60  # of the bisection; the bracket ends below the rounding of a double
 
 
+def spread_leg(
+    leg: Sequence[float], hip_height: float, lengths: Sequence[float], bends: Sequence[float]
+) -> FloatArray:
+    """Return the joints [N + 1, 3] of a leg by where its hip is and where it goes from there.
+
+    Args:
+        leg: the hip's x and z, the heading of the foot from +Z toward +X in degrees, its distance
+            from the hip in plan, and what the segments are scaled by; m.
+        hip_height: m.
+        lengths: N segments from the hip, m, before they are scaled.
+        bends: see `folded_leg`.
+    """
+    x, z, heading, distance, scale = leg
+    hip = np.array([x, hip_height, z])
+    turn = np.radians(heading)
+    foot = hip * (1.0, 0.0, 1.0) + distance * np.array([np.sin(turn), 0.0, np.cos(turn)])
+    return folded_leg(hip, foot, [scale * length for length in lengths], bends)
+
+
 def folded_leg(
     hip: ArrayLike, foot: ArrayLike, lengths: Sequence[float], bends: Sequence[float]
 ) -> FloatArray:
