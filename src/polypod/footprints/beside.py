@@ -52,15 +52,16 @@ def try_beside(
     best: float,
     path: PathRow,
 ) -> float:
-    """Return the score of the first pair beside the preferred place that is better than `best`.
+    """Return the score of the best pair on the first ring about the preferred place that has one.
 
-    Where there is none that is `best`, and `path` is left as it is.
+    It is better than `best`; where there is none that is returned, and `path` is left as it is.
 
     On open ground only the leg itself and other legs are in the way. The places lie about the
     preferred one in the foot's own axes, outward first: no grid, so that a walk that is turned or
     mirrored is the same walk.
     """
     frame = foot_frame(request)
+    before = best
     for ring in range(1, BESIDE_RINGS + 1):
         away = ring / BESIDE_RINGS * 0.9 * request.search_radius
         for k in range(BESIDE_PLACES):
@@ -76,5 +77,7 @@ def try_beside(
             pair, _ = try_direct(env, settings, request, legs, scratch, score, end, best)
             if pair > best:
                 copy_path(scratch.trial, path)
-                return pair
+                best = pair
+        if best > before:
+            break
     return best
