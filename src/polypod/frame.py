@@ -26,6 +26,9 @@ from polypod.morphology.types import FloatArray
 
 # Longer steps than this are no frames that anybody watches.
 LONGEST_FRAME = 0.05
+# So many creatures go through all parts together: their state stays in a core's cache (a crowd of
+# 1000 cost a quarter more for each when every part ran over all of it).
+BLOCK = 32
 
 
 @kernel
@@ -144,9 +147,11 @@ def step_creatures(
         herd.kernel_state, herd.kernel_command, herd.kernel_tables, herd.kernel_settings,
         environment, herd.kernel_plan, herd.scratch(worker),
     )  # fmt: skip
-    for step in range(begin_frame(first, last, dt, herd.kernel_state)):
-        for number, part in enumerate(PARTS.values()):
-            began = time.thread_time()
-            part(first, last, step, dt, *arguments)
-            if spent is not None:
-                spent[number] += time.thread_time() - began
+    for start in range(first, last, BLOCK):
+        end = min(start + BLOCK, last)
+        for step in range(begin_frame(start, end, dt, herd.kernel_state)):
+            for number, part in enumerate(PARTS.values()):
+                began = time.thread_time()
+                part(start, end, step, dt, *arguments)
+                if spent is not None:
+                    spent[number] += time.thread_time() - began

@@ -71,6 +71,7 @@ class HerdState(NamedTuple):
     lift_phase: FloatArray  # [C, K] needle at lift-off, or at the last new plan
     swing_progress: FloatArray  # [C, K] of the time from there to touchdown, 0 to 1
     waiting: FloatArray  # [C, K] s for which a foot has wished to lift and found no place
+    pull: FloatArray  # [C, K] m by which a leg was too short or too long for the body's wished pose
     wish: FloatArray  # [C, K, 3] where it would then have liked to land
     foot: FloatArray  # [C, K, 3] the sole as planned
     foot_start: FloatArray  # [C, K, 3] the sole at lift-off
@@ -163,7 +164,15 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
                 "stood",
                 "airborne",
             ),
-            *("lift_phase", "swing_progress", "waiting", "foot_support", "path_launch", "residual"),
+            *(
+                "lift_phase",
+                "swing_progress",
+                "waiting",
+                "foot_support",
+                "path_launch",
+                "residual",
+                "pull",
+            ),
         ),
         (c, k),
     )

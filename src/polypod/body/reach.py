@@ -49,16 +49,18 @@ def body_within_reach(
 
     Each pass moves the body against each foot's own shift in turn (projections onto nearly convex
     sets); it ends where no foot asks for more, or with what the passes reached. A swinging foot
-    that is far out of reach does not pull: it can wait.
+    that is far out of reach does not pull: it can wait. What each foot asked for is noted.
     """
     tolerance = TOLERANCE * tables.leg_length
-    for _ in range(PASSES):
+    for attempt in range(PASSES):
         worst = 0.0
         for k in range(state.swinging.shape[1]):
             sole = load_vec3(scratch.sole[k])
             foot_turn = load_quat(scratch.turn[k])
             shift = foot_shift(k, tables, sole, foot_turn, position, turn)
             size = length(shift)
+            if attempt == 0:
+                state.pull[c, k] = size
             pull = EARLY_PULL if scratch.progress[k] < EARLY else LATE_PULL
             if state.swinging[c, k] and size > pull * tables.leg_length:
                 continue

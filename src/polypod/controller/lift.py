@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.reach import effector_world
 from polypod.compute import kernel
 from polypod.controller.feet import Errand, preferred_footprint, rest_offset
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import begin_swing, wished_progress
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
-from polypod.math.quat import load_quat
-from polypod.math.vec3 import Vec3, distance, load_vec3, store_vec3
+from polypod.math.vec3 import Vec3, store_vec3
 
-# A leg stretched to this share of its longest may step out of turn, if it has stood for so many
-# cycles and the creature hurries so much because its legs hold it back.
-OUT_OF_TURN_STRETCH = 0.985
+# A leg that pulls at the body by so many leg lengths a frame may step out of turn, if it has stood
+# for so many cycles and the creature hurries so much because its legs hold it back.
+OUT_OF_TURN_PULL = 1e-3
+# So may one that found no place in its turn, before it comes to that. It comes after those that
+# pull, and the longer it waits the sooner: leg lengths for each second.
+WAITING_PULL = 1e-9
 OUT_OF_TURN_STOOD = 0.3
 OUT_OF_TURN_HURRY = 0.02
 # Standing feet closer than this to their rest place stay, leg lengths.
@@ -101,28 +102,26 @@ def note_standing(c: int, dt: float, turn: float, state: Any, tables: Any, setti
 def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
     """Return the foot that may take a quick step outside of its sector; as many as feet: none.
 
-    That is the one that most holds the body back: its leg is stretched to its end, on a body that
-    its legs have slowed down, because it missed its turn. Where too few feet are down it waits.
+    That is the one that most holds the body back: its leg pulls hardest at a body that its legs
+    have slowed down, because it missed its turn. Or else one that found no place in its turn and
+    still looks for one. Where too few feet are down it waits.
     """
     # No foot: not a literal, or all that is called with it would be compiled twice.
     count = state.swinging.shape[1]
     worst = count
-    if state.hurry[c] < OUT_OF_TURN_HURRY:
-        return int(count)
     down = 0
-    most = OUT_OF_TURN_STRETCH
+    most = 0.0
     for k in range(count):
         if state.swinging[c, k]:
             continue
         down += 1
         if scratch.held[k] or state.stood[c, k] < OUT_OF_TURN_STOOD:
             continue
-        foot_turn = load_quat(state.foot_rotation[c, k])
-        effector = effector_world(k, tables, load_vec3(state.foot[c, k]), foot_turn)
-        hip = load_vec3(state.joint_position[c, tables.legs.joint[k, 0]])
-        stretch = distance(effector, hip) / tables.ik.longest[k]
-        if stretch > most:
-            most = stretch
+        pull = state.pull[c, k]
+        if pull < OUT_OF_TURN_PULL * tables.leg_length or state.hurry[c] < OUT_OF_TURN_HURRY:
+            pull = state.waiting[c, k] * WAITING_PULL * tables.leg_length
+        if pull > most:
+            most = pull
             worst = k
     return int(worst if down > state.least_down[c] else count)
 

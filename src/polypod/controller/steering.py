@@ -97,7 +97,7 @@ def detour(c: int, state: Any, command: Any, tables: Any, env: Any) -> float:
     Of a fan of courses the freest near to the wished one is taken, by a plain look at the way that
     the feet take, or the body of a sprawler, whose feet find their own ways beside it.
     """
-    if env.bucket_shape[0] == 0:
+    if env.forbidden_count == 0:
         return 0.0
     pose = plan_pose(c, state)
     course = command.heading[c]

@@ -42,6 +42,7 @@ def build_table(terrain: Terrain, obstacles: Sequence[Obstacle]) -> EnvironmentT
         rotation=np.array([o.rotation for o in obstacles], dtype=np.float64).reshape(-1, 4),
         half_size=0.5 * np.array([o.size for o in obstacles], dtype=np.float64).reshape(-1, 3),
         forbidden=np.array([o.forbidden for o in obstacles], dtype=np.bool_),
+        forbidden_count=sum(o.forbidden for o in obstacles),
         planes=plane_table,
         plane_count=plane_count,
         footprint=footprint,

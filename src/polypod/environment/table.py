@@ -40,6 +40,7 @@ class EnvironmentTable(NamedTuple):
     rotation: FloatArray  # [O, 4] x, y, z, w
     half_size: FloatArray  # [O, 3]
     forbidden: BoolArray  # [O]
+    forbidden_count: int  # how many of them are: most places have none, and need not be asked
     planes: FloatArray  # [O, P, 4] outward normal n and offset d: inside where n . p <= d
     plane_count: IntArray  # [O] of a cylinder: a prism around it; of a sphere: 0
     footprint: FloatArray  # [O, V, 2] x, z: convex corners in plan, circumscribed for round shapes
@@ -168,7 +169,7 @@ def surface_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
 @kernel
 def is_forbidden(env: EnvironmentTable, x: float, z: float, margin: float) -> bool:
     """Say whether a forbidden obstacle's footprint comes within `margin` metres in plan."""
-    if env.bucket_shape[0] == 0:
+    if env.forbidden_count == 0:
         return False
     left = bucket_line(env.bucket_place, env.bucket_shape, x - margin, 0)
     right = bucket_line(env.bucket_place, env.bucket_shape, x + margin, 0)
