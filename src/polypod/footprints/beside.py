@@ -20,6 +20,8 @@ from polypod.paths.scratch import OtherLegs
 # Places on each of so many rings within the search radius.
 BESIDE_RINGS = 3
 BESIDE_PLACES = 8
+# A later place must be better by so much: rounding shall not choose between twins.
+TIE = 1e-6
 
 
 @kernel
@@ -74,8 +76,9 @@ def try_beside(
             if score < 0.0:
                 continue
             end = Vec3(x, y, z)
-            pair, _ = try_direct(env, settings, request, legs, scratch, score, end, best)
-            if pair > best:
+            least = best + TIE if best >= 0.0 else best
+            pair, _ = try_direct(env, settings, request, legs, scratch, score, end, least)
+            if pair > least:
                 copy_path(scratch.trial, path)
                 best = pair
         if best > before:
