@@ -13,6 +13,7 @@ from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
 from polypod.controller.lift import any_off_place
+from polypod.controller.moving import carry_feet
 from polypod.controller.plan import plan_feet
 from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.steering import load_pose, move_body, note_pose, store_pose
@@ -55,6 +56,9 @@ def drive_creatures(
         if step >= state.steps[c]:
             continue
         seconds = dt / state.steps[c]
+        # What feet stand on takes them along.
+        if env.mover_count > 0 and step == 0:
+            carry_feet(c, dt, state, env)
         # Feet spacing approaches what was asked for.
         shift_spacing(c, seconds, state, command, tables, settings)
         # Tempo, transition, needle.

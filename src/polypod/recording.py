@@ -11,9 +11,10 @@ from polypod.report.record import Recorder, Recording
 from polypod.world import World
 
 
-def _add_frame(
-    recorders: list[tuple[Herd, int, Recorder]], world: World, places: tuple[list[object], ...]
-) -> None:
+def _add_frame(recorders: list[tuple[Herd, int, Recorder]], world: World) -> None:
+    environment = world.environment
+    place = environment.places()
+    turn = np.array([obstacle.rotation for obstacle in environment.obstacles]).reshape(-1, 4)
     for herd, creature, recorder in recorders:
         state = herd.state
         recorder.add(
@@ -26,8 +27,8 @@ def _add_frame(
             state.foot[creature],
             ~state.swinging[creature],
             np.where(state.swinging[creature], -1, state.foot_support[creature]),
-            np.asarray(places[0]),
-            np.asarray(places[1]),
+            place,
+            turn,
         )
 
 
@@ -43,10 +44,6 @@ def record_walk(
     `progress(done, total)` is called after each frame.
     """
     obstacles = world.environment.obstacles
-    places: tuple[list[object], ...] = (
-        [obstacle.position for obstacle in obstacles],
-        [obstacle.rotation for obstacle in obstacles],
-    )
     recorders = [
         (herd, creature, Recorder(herd.morphology, len(obstacles)))
         for herd in world.herds
@@ -54,12 +51,12 @@ def record_walk(
     ]
     steps = round(seconds * fps)
     start = world.time
-    _add_frame(recorders, world, places)
+    _add_frame(recorders, world)
     for step in range(1, steps + 1):
         world.step(1.0 / fps)
         # Times are counted, not summed: frame n is at n / fps to the last bit.
         world.time = start + step / fps
-        _add_frame(recorders, world, places)
+        _add_frame(recorders, world)
         if progress is not None:
             progress(step, steps)
     return [recorder.finish() for _, _, recorder in recorders]

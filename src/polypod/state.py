@@ -72,6 +72,11 @@ class HerdState(NamedTuple):
     swing_progress: FloatArray  # [C, K] of the time from there to touchdown, 0 to 1
     waiting: FloatArray  # [C, K] s for which a foot has wished to lift and found no place
     pull: FloatArray  # [C, K] m by which a leg was too short or too long for the body's wished pose
+    landing_support: IntArray  # [C, K] what it will land on: obstacle, -1: the ground
+    plan_clock: FloatArray  # [C, K] s since its way was planned
+    plan_seconds: FloatArray  # [C, K] s from then to touchdown
+    plan_shift: FloatArray  # [C, K, 3] shift of what it will land on, when it was planned
+    plan_velocity: FloatArray  # [C, K, 3] and its velocity, m/s
     wish: FloatArray  # [C, K, 3] where it would then have liked to land
     foot: FloatArray  # [C, K, 3] the sole as planned
     foot_start: FloatArray  # [C, K, 3] the sole at lift-off
@@ -172,12 +177,25 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
                 "path_launch",
                 "residual",
                 "pull",
+                "landing_support",
+                "plan_clock",
+                "plan_seconds",
             ),
         ),
         (c, k),
     )
     places = dict.fromkeys(
-        ("foot", "foot_start", "foot_target", "foot_preferred", "foot_reached", "wish"), (c, k, 3)
+        (
+            "foot",
+            "foot_start",
+            "foot_target",
+            "foot_preferred",
+            "foot_reached",
+            "wish",
+            "plan_shift",
+            "plan_velocity",
+        ),
+        (c, k, 3),
     )
     turns = dict.fromkeys(
         ("foot_rotation", "foot_rotation_start", "foot_rotation_target"), (c, k, 4)
@@ -203,6 +221,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
     state.foot_rotation_start[..., 3] = 1.0
     state.foot_rotation_target[..., 3] = 1.0
     state.foot_support[:] = -1
+    state.landing_support[:] = -1
     return state
 
 

@@ -25,7 +25,6 @@ from polypod.gait.pattern import Gait
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
 from polypod.morphology.types import Morphology
-from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
 
@@ -63,7 +62,7 @@ class World:
         if not isinstance(place, Environment):
             place = Environment(place, obstacles)
         self.environment = place
-        self.kernel_environment = by_reference(place.table)
+        self.kernel_environment = place.kernel_table
         self.herds: list[Herd] = []
         self.time = 0.0
         self.threads = thread_count() if threads is None else max(1, int(threads))
@@ -152,6 +151,7 @@ class World:
         """
         if not 0.0 < dt <= LONGEST_STEP:
             raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
+        self.environment.advance(self.time + dt)
         for herd in self.herds:
             for worker in range(self.threads):
                 herd.scratch(worker)

@@ -38,7 +38,7 @@ def maps_of(
     n: int = N,
 ) -> LocalMap:
     window = make_local_map(n + 3)
-    fill_maps(env, window, centre[0], centre[1], CELL, n, *foot)
+    fill_maps(env, window, centre[0], centre[1], CELL, n, *foot, 0.0)
     return window
 
 

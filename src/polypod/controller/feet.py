@@ -9,9 +9,9 @@ from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, predict
-from polypod.environment.table import surface_normal
+from polypod.environment.table import surface_at, surface_normal, surface_normal_at
 from polypod.footprints.plan import plan_step
-from polypod.footprints.settings import StepRequest
+from polypod.footprints.settings import StepRequest, landing_time
 from polypod.ik.foot import foot_rotation
 from polypod.math.quat import rotate, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
@@ -188,6 +188,7 @@ def plan_foot(
             dt,
             errand.launch,
             level_height(c, preferred.x, preferred.z, state),
+            stance,
             tables.level_weight,
         )
         found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
@@ -196,12 +197,20 @@ def plan_foot(
     if not found:
         return False
     target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
+    seconds = landing_time(request)
     turn = foot_rotation(
         middle.heading,
-        surface_normal(env, target.x, target.z),
+        surface_normal_at(env, target.x, target.z, seconds),
         settings.foot_align,
         settings.foot_tilt,
     )
+    _, support = surface_at(env, target.x, target.z, seconds)
+    state.landing_support[c, k] = support
+    state.plan_clock[c, k] = 0.0
+    state.plan_seconds[c, k] = seconds
+    if support >= 0:
+        store_vec3(state.plan_shift[c, k], load_vec3(env.shift[support]))
+        store_vec3(state.plan_velocity[c, k], load_vec3(env.velocity[support]))
     store_vec3(state.foot_preferred[c, k], preferred)
     store_vec3(state.foot_target[c, k], target)
     store_quat(state.foot_rotation_target[c, k], turn)

@@ -17,6 +17,7 @@ from polypod.controller.lift import (
     wait_for_place,
     way_off,
 )
+from polypod.controller.moving import foot_in_the_way, way_blocked
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import (
     FASTEST_CATCH_UP,
@@ -39,11 +40,14 @@ def plan_feet(
     than the gait's own minimum. One that finds no place holds its own and looks farther next time.
     """
     for k in range(state.swinging.shape[1]):
-        if not state.swinging[c, k] or state.swing_progress[c, k] > settings.replan_until:
+        if not state.swinging[c, k]:
+            continue
+        blocked = env.mover_count > 0 and way_blocked(c, k, state, tables, env)
+        if state.swing_progress[c, k] > settings.replan_until and not blocked:
             continue
         left = swing_time_left(c, k, state)
         preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)
-        if not wishes_new_plan(c, k, preferred, state, tables, settings):
+        if not blocked and not wishes_new_plan(c, k, preferred, state, tables, settings):
             continue
         radius = settings.search_radius * tables.legs.length[k]
         errand = way_on(c, k, preferred, left, radius, state)
@@ -52,14 +56,18 @@ def plan_feet(
         ):
             take_new_way(c, k, errand.launch, state, scratch)
     landing = note_standing(c, dt, state.turn[c], state, tables, settings, scratch)
-    in_turn = True
-    while in_turn:
-        k = next_foot_to_lift(
-            state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
-            state.stood[c], scratch.held, state.least_down[c], settings.late_lift, landing,
-        )  # fmt: skip
-        in_turn = k >= 0
-        if not in_turn:
+    searching = True
+    while searching:
+        k = foot_in_the_way(c, state, tables, env, scratch)
+        in_turn = False
+        if k == state.swinging.shape[1]:
+            k = next_foot_to_lift(
+                state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
+                state.stood[c], scratch.held, state.least_down[c], settings.late_lift, landing,
+            )  # fmt: skip
+            in_turn = k >= 0
+            searching = in_turn
+        if k < 0:
             k = foot_out_of_turn(c, state, tables, scratch)
             if k == state.swinging.shape[1]:
                 break

@@ -54,12 +54,12 @@ def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
             if state.airborne[c, k] + dt <= FRAMES_AIRBORNE * state.frame[c]:
                 progress = min(progress, NEARLY_DOWN)
             before = sole
-            sole, turn = foot_along(c, k, progress, state)
+            sole, turn = foot_along(c, k, progress, state, env)
             for _ in range(SHORTER):
                 if chord_is_free(before, sole, env):
                     break
                 progress = 0.5 * (now + progress)
-                sole, turn = foot_along(c, k, progress, state)
+                sole, turn = foot_along(c, k, progress, state, env)
             scratch.progress[k] = progress
         store_vec3(scratch.sole[k], sole)
         store_quat(scratch.turn[k], turn)

@@ -127,11 +127,31 @@ def wished_progress(c: int, k: int, dt: float, state: Any) -> float:
 
 
 @kernel
-def foot_along(c: int, k: int, progress: float, state: Any) -> tuple[Vec3, Quat]:
+def drift(c: int, k: int, along: float, state: Any, env: Any) -> Vec3:
+    """Return how far a foot is to be from its path, m, for what it lands on is not as foreseen.
+
+    The path ends where that was foreseen to be at touchdown. What it has moved otherwise counts in
+    proportion to the way, and what it will still move where the foot lands early or late, last.
+    """
+    support = state.landing_support[c, k]
+    if support < 0:
+        return Vec3(0.0, 0.0, 0.0)
+    velocity = load_vec3(state.plan_velocity[c, k])
+    clock = state.plan_clock[c, k]
+    moved = load_vec3(env.shift[support]) - load_vec3(state.plan_shift[c, k])
+    left = velocity * (state.plan_seconds[c, k] - clock)
+    late = along * along * along * along
+    return (moved - velocity * clock) * along - left * (late * late)
+
+
+@kernel
+def foot_along(c: int, k: int, progress: float, state: Any, env: Any) -> tuple[Vec3, Quat]:
     """Return the sole and the foot's orientation at a share of the swing's time."""
     row = path_row(state.path, c, k)
     along, _ = progress_on_path(PROFILE_BELL, progress, state.path_launch[c, k])
     sole = path_point(row.point, row.tangent, row.fraction, row.count[0], along)
+    if env.mover_count > 0:
+        sole = sole + drift(c, k, along, state, env)
     turn = slerp(
         load_quat(state.foot_rotation_start[c, k]),
         load_quat(state.foot_rotation_target[c, k]),

@@ -16,10 +16,19 @@ from polypod.environment.terrain import Terrain
 KIND_OF_SHAPE = {"box": BOX, "hull": BOX, "sphere": SPHERE, "cylinder": CYLINDER}
 MOST_BUCKETS = 1 << 18
 MOST_LISTED = 1 << 22  # obstacles, summed over the buckets
+# Where things move: as many buckets as are quickly listed anew, and so many of an obstacle.
+MOST_BUCKETS_MOVING = 1 << 10
+MOST_LISTED_MOVING = 64
 
 
-def build_table(terrain: Terrain, obstacles: Sequence[Obstacle]) -> EnvironmentTable:
-    """Return the table of a static environment; obstacle o is row o."""
+def build_table(
+    terrain: Terrain, obstacles: Sequence[Obstacle], movable: bool = False
+) -> EnvironmentTable:
+    """Return the table of an environment at its start; obstacle o is row o.
+
+    Where something moves, or is `movable`, `motion.list_obstacles` must be called before it is
+    asked anything.
+    """
     planes = [obstacle.planes() for obstacle in obstacles]
     outlines = [obstacle.footprint() for obstacle in obstacles]
     bounds = _bounds(obstacles)
@@ -27,6 +36,11 @@ def build_table(terrain: Terrain, obstacles: Sequence[Obstacle]) -> EnvironmentT
     footprint, footprint_count = _padded(outlines, 2)
     sides, _ = _padded([polygon_sides(outline) for outline in outlines], 3)
     place, shape, start, item, spread = _buckets(bounds)
+    movers = np.array([i for i, o in enumerate(obstacles) if o.moves or movable], dtype=np.int64)
+    if len(movers):
+        # Listed anew in every frame, in memory that is large enough for any of them.
+        start = np.zeros(MOST_BUCKETS_MOVING + 1, np.int64)
+        item = np.zeros(max(1, len(obstacles)) * MOST_LISTED_MOVING, np.int64)
     heights = terrain.heights
     # Kernels read two samples along each axis.
     heights = np.repeat(heights, 2, axis=0) if heights.shape[0] == 1 else heights
@@ -49,6 +63,12 @@ def build_table(terrain: Terrain, obstacles: Sequence[Obstacle]) -> EnvironmentT
         footprint_side=sides,
         footprint_count=footprint_count,
         bounds=bounds,
+        mover_count=len(movers),
+        movers=movers,
+        shift=np.zeros((len(obstacles), 3)),
+        velocity=np.zeros((len(obstacles), 3)),
+        step=np.zeros((len(obstacles), 3)),
+        swept=bounds.copy(),
         bucket_place=place,
         bucket_shape=shape,
         bucket_start=start,

@@ -1,28 +1,103 @@
-"""The place where creatures walk: a terrain and what stands on it."""
+"""The place where creatures walk: a terrain and what stands or moves on it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from polypod.environment.build import build_table
-from polypod.environment.obstacles import Obstacle
+from polypod.environment.motion import Track, list_obstacles
+from polypod.environment.obstacles import LARGEST, Obstacle
 from polypod.environment.table import EnvironmentTable
 from polypod.environment.terrain import Terrain
+from polypod.errors import SceneError
+from polypod.reference import by_reference
 
 
 class Environment:
-    """A terrain with obstacles; static.
+    """A terrain with obstacles.
 
     `obstacles` are those given, in their order, then the solid parts of the terrain itself (the
     steps of generated stairs): a foot's support is an index into this list, or -1 for the ground.
+    With `movable` any obstacle may be moved by `move`; otherwise only those move that say so.
     """
 
-    def __init__(self, terrain: Terrain | None = None, obstacles: Sequence[Obstacle] = ()) -> None:
+    def __init__(
+        self,
+        terrain: Terrain | None = None,
+        obstacles: Sequence[Obstacle] = (),
+        *,
+        movable: bool = False,
+    ) -> None:
         self.terrain = Terrain.flat() if terrain is None else terrain
         self.obstacles: tuple[Obstacle, ...] = (*obstacles, *self.terrain.parts)
+        self.movable = movable and len(self.obstacles) > 0
+        self._tracks = {i: Track(o) for i, o in enumerate(self.obstacles) if o.moves}
+        self._moved: dict[int, np.ndarray[Any, np.dtype[np.float64]]] = {}
 
     @cached_property
     def table(self) -> EnvironmentTable:
         """What kernels read, made when first asked for."""
-        return build_table(self.terrain, self.obstacles)
+        table = build_table(self.terrain, self.obstacles, self.movable)
+        if self._tracks or self.movable:
+            for index, track in self._tracks.items():
+                table.velocity[index] = track.at(0.0)[1]
+            list_obstacles(by_reference(table))
+        return table
+
+    @cached_property
+    def kernel_table(self) -> EnvironmentTable:
+        """The table by reference, as kernels take it."""
+        return by_reference(self.table)
+
+    @property
+    def changes(self) -> bool:
+        """Whether anything moves or may be moved."""
+        return bool(self._tracks) or self.movable
+
+    def move(self, index: int, position: ArrayLike, velocity: ArrayLike = (0.0, 0.0, 0.0)) -> None:
+        """Put an obstacle's centre elsewhere, m; it is there from the next step on.
+
+        `velocity`, m/s, is what creatures then expect of it.
+
+        Raises:
+            SceneError: no such obstacle, one that moves by itself, or numbers that cannot be used;
+                the environment was not made `movable`.
+        """
+        if not self.movable:
+            raise SceneError("nothing here can be moved: make the Environment with movable=True")
+        if not 0 <= index < len(self.obstacles) or index in self._tracks:
+            raise SceneError(
+                f"obstacle {index} cannot be moved; it must be one of the "
+                f"{len(self.obstacles)} that are here, and not move by itself"
+            )
+        place, speed = np.asarray(position, np.float64), np.asarray(velocity, np.float64)
+        for value in (place, speed):
+            if value.shape != (3,) or not np.all(np.abs(value) <= LARGEST):
+                raise SceneError(
+                    f"an obstacle is moved to {position!r} at {velocity!r}; each must be three "
+                    f"numbers within {LARGEST:g}"
+                )
+        self._moved[index] = place - np.array(self.obstacles[index].position)
+        self.table.velocity[index] = speed
+
+    def advance(self, time: float) -> None:
+        """Put everything that moves where it is at a time, seconds from the start."""
+        if not self.changes:
+            return
+        table = self.table
+        table.step[:] = -table.shift
+        for index, track in self._tracks.items():
+            table.shift[index], table.velocity[index] = track.at(time)
+        for index, shift in self._moved.items():
+            table.shift[index] = shift
+        table.step[:] += table.shift
+        list_obstacles(self.kernel_table)
+
+    def places(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """Return the present centres of all obstacles [O, 3], m."""
+        return np.array(self.table.position + self.table.shift)

@@ -14,7 +14,13 @@ from typing import TYPE_CHECKING
 from polypod.compute import kernel
 from polypod.environment.convex import ROUND_SAG, ROUND_SLACK
 from polypod.environment.shapes import BOX, CYLINDER, SPHERE, VERTICAL
-from polypod.environment.table import EnvironmentTable, FloatArray, bucket_line, first_met
+from polypod.environment.table import (
+    EnvironmentTable,
+    FloatArray,
+    bucket_line,
+    first_met,
+    shift_of,
+)
 
 if TYPE_CHECKING:
     from polypod.environment.maps import LocalMap
@@ -29,6 +35,8 @@ KIND_FORBIDDEN = 5
 
 # Where the side of an obstacle crosses a cell, this many cells of height make an edge.
 OBSTACLE_JUMP = 0.25
+# What moves is drawn at so many moments from now to touchdown.
+MOVING_TIMES = 4
 ROUNDING = 1e-9  # in cells: a touch counts, whichever way it is rounded
 
 # A row of LocalMap.sides: a normal (x, z), then how far along it a cell's centre may lie so that
@@ -51,8 +59,12 @@ def fill_obstacles(
     foot_half_x: float,
     foot_half_z: float,
     foot_yaw: float,
+    ahead: float,
 ) -> None:
-    """Raise the cells that obstacles near the window reach, and mark the forbidden ones."""
+    """Raise the cells that obstacles near the window reach, and mark the forbidden ones.
+
+    What moves is drawn where it is, where it will be `ahead` seconds from now, and between.
+    """
     side = window.size[0] * window.place[2]
     reach = math.hypot(foot_half_x, foot_half_z)
     least_x = window.place[0] - reach
@@ -70,12 +82,39 @@ def fill_obstacles(
                 o = env.bucket_item[i]
                 if (
                     first_met(env.bucket_range, o, row, column, top, left)
-                    and env.bounds[o, 0] <= greatest_x
-                    and env.bounds[o, 3] >= least_x
-                    and env.bounds[o, 2] <= greatest_z
-                    and env.bounds[o, 5] >= least_z
+                    and env.swept[o, 0] <= greatest_x
+                    and env.swept[o, 3] >= least_x
+                    and env.swept[o, 2] <= greatest_z
+                    and env.swept[o, 5] >= least_z
                 ):
-                    _raise_cells(env, window, o, foot_half_x, foot_half_z, foot_yaw)
+                    _raise_moved(env, window, o, foot_half_x, foot_half_z, foot_yaw, ahead)
+
+
+@kernel
+def _raise_moved(
+    env: EnvironmentTable,
+    window: LocalMap,
+    o: int,
+    foot_half_x: float,
+    foot_half_z: float,
+    foot_yaw: float,
+    ahead: float,
+) -> None:
+    """Write obstacle `o` into every cell that it reaches on its way; a still one once.
+
+    Cells are shifted, not the obstacle: its rows stay where they are.
+    """
+    moves = env.velocity[o, 0] != 0.0 or env.velocity[o, 1] != 0.0 or env.velocity[o, 2] != 0.0
+    times = MOVING_TIMES if moves and ahead > 0.0 else 1
+    corner_x = window.place[0]
+    corner_z = window.place[1]
+    for k in range(times):
+        shift = shift_of(env, o, ahead * k / max(times - 1, 1))
+        window.place[0] = corner_x - shift.x
+        window.place[1] = corner_z - shift.z
+        _raise_cells(env, window, o, foot_half_x, foot_half_z, foot_yaw, shift.y)
+    window.place[0] = corner_x
+    window.place[1] = corner_z
 
 
 @kernel
@@ -86,8 +125,9 @@ def _raise_cells(
     foot_half_x: float,
     foot_half_z: float,
     foot_yaw: float,
+    rise: float,
 ) -> None:
-    """Write obstacle `o` into every cell that it reaches."""
+    """Write obstacle `o`, `rise` metres above its rows, into every cell that it reaches."""
     n = window.size[0]
     cell = window.place[2]
     count = _set_sides(env, window, o, foot_half_x, foot_half_z, foot_yaw)
@@ -99,7 +139,7 @@ def _raise_cells(
     reach = math.hypot(foot_half_x, foot_half_z) + cell
     first = _cell_at((env.bounds[o, 2] - reach - window.place[1]) / cell, n)
     last = _cell_at((env.bounds[o, 5] + reach - window.place[1]) / cell, n)
-    high = window.tops[0, BASE]
+    high = window.tops[0, BASE] + rise
     low = high
     covered = True
     for i in range(first, last + 1):
@@ -116,7 +156,8 @@ def _raise_cells(
             x = window.place[0] + (j + 0.5) * cell
             if not level:
                 high, low, covered = _tops(window.tops, tops, x, z)
-                high = min(high, env.bounds[o, 4])
+                high = min(high, env.bounds[o, 4]) + rise
+                low += rise
             if high <= window.lowest[i, j] and not forbidden:
                 continue
             kind = KIND_GROWN

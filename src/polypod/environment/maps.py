@@ -77,6 +77,7 @@ def fill_maps(
     foot_half_x: float,
     foot_half_z: float,
     foot_yaw: float,
+    ahead: float,
 ) -> None:
     """Fill the maps of n x n cells around a place, for one foot's shape and orientation.
 
@@ -90,6 +91,7 @@ def fill_maps(
         foot_half_x: half extent of the foot's rectangle along its own x, metres; 0 for a point.
         foot_half_z: half extent along its own z, metres.
         foot_yaw: turn of the rectangle about +Y from +Z toward +X, radians.
+        ahead: seconds from now for which what moves is drawn on its way.
     """
     window.place[0] = centre_x - 0.5 * n * cell
     window.place[1] = centre_z - 0.5 * n * cell
@@ -99,7 +101,7 @@ def fill_maps(
     if env.water.shape[0] > 0:
         fill_water(env, window, foot_half_x, foot_half_z, foot_yaw)
     if env.bucket_shape[0] > 0:
-        fill_obstacles(env, window, foot_half_x, foot_half_z, foot_yaw)
+        fill_obstacles(env, window, foot_half_x, foot_half_z, foot_yaw, ahead)
     _fill_edge_distance(window)
 
 

@@ -27,6 +27,7 @@ SHAPES = ("box", "cylinder", "sphere", "hull")
 MOST_HULL_POINTS = 48
 LARGEST = 1e5  # m: of a coordinate or a size; beyond it positions lose the precision of a footprint
 SMALLEST = 1e-6  # m
+FASTEST = 100.0  # m/s
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,9 @@ class Obstacle:
     stands along y with equal x and z, a sphere has three equal sizes. A hull is the convex hull of
     `points` [N, 3], given from `position` in the solid's own axes. Feet neither step on a
     `forbidden` obstacle nor pass over it.
+
+    It stands still, or moves with a constant `velocity`, m/s, or with `speed`, m/s, to the points
+    of its `path` in turn and from the last to where it began, again and again. It does not turn.
     """
 
     shape: str
@@ -46,6 +50,14 @@ class Obstacle:
     forbidden: bool = False
     name: str = ""
     points: tuple[tuple[float, float, float], ...] = ()
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    path: tuple[tuple[float, float, float], ...] = ()
+    speed: float = 0.0
+
+    @property
+    def moves(self) -> bool:
+        """Whether it moves by itself."""
+        return any(self.velocity) or bool(self.path)
 
     def __post_init__(self) -> None:
         """Judge the numbers; raise SceneError."""
@@ -80,8 +92,24 @@ class Obstacle:
             raise SceneError(
                 f"{title} is a sphere with size {list(self.size)}: make the three equal"
             )
+        self._judge_motion(title)
         if self.shape == "hull" and len(hull_planes(np.array(self.points))) < 4:
             raise SceneError(f"{title} is a hull of points that lie in one plane or on one line")
+
+    def _judge_motion(self, title: str) -> None:
+        if not all(abs(v) <= FASTEST for v in self.velocity) or not abs(self.speed) <= FASTEST:
+            raise SceneError(
+                f"{title} has the velocity {list(self.velocity)} and the speed {self.speed:g}; "
+                f"each must be a number of m/s within {FASTEST:g}"
+            )
+        if self.path and (any(self.velocity) or not self.speed > 0.0):
+            raise SceneError(
+                f"{title} has a path: give it a speed above 0 with it, and no velocity"
+            )
+        if self.speed and not self.path:
+            raise SceneError(f"{title} has a speed without a path; give it a path or a velocity")
+        if not all(abs(p) <= LARGEST for point in self.path for p in point):
+            raise SceneError(f"{title} has a path that is not within {LARGEST:g} m of the origin")
 
     @classmethod
     def box(

@@ -27,6 +27,8 @@ GROUND = -1  # the support of a foot that stands on the terrain
 class EnvironmentTable(NamedTuple):
     """Terrain and O obstacles in world metres; P planes and V corners are padded to the most.
 
+    Obstacles that move keep their rows: each question about obstacle o is asked `shift[o]` aside.
+
     A vertical line meets only the obstacles listed in its bucket: bucket [r, c] of the plan holds
     `bucket_item[bucket_start[r * C + c] : bucket_start[r * C + c + 1]]`, in rising order.
     """
@@ -47,6 +49,12 @@ class EnvironmentTable(NamedTuple):
     footprint_side: FloatArray  # [O, V, 3] outward normal x, z and offset of the side from corner v
     footprint_count: IntArray  # [O]
     bounds: FloatArray  # [O, 6] least x, y, z, then greatest x, y, z
+    mover_count: int  # obstacles that move; they are the first rows of `movers`
+    movers: IntArray  # [movers] their indices
+    shift: FloatArray  # [O, 3] how far each now is from where all the above has it
+    velocity: FloatArray  # [O, 3] m/s, now
+    step: FloatArray  # [O, 3] by how much it moved in this frame
+    swept: FloatArray  # [O, 6] bounds of all that it will meet within the horizon
     bucket_place: FloatArray  # [3] x and z of the corner of bucket [0, 0], side of a bucket, m
     bucket_shape: IntArray  # [2] rows (along z), columns (along x)
     bucket_start: IntArray  # [rows * columns + 1]
@@ -132,10 +140,26 @@ def first_met(bucket_range: IntArray, o: int, row: int, column: int, top: int, l
 
 
 @kernel
-def surface(env: EnvironmentTable, x: float, z: float) -> tuple[float, int]:
-    """Return the height of the highest surface at a plan point and what it is.
+def shift_of(env: EnvironmentTable, o: int, ahead: float) -> Vec3:
+    """Return how far obstacle `o` will be from where its rows have it, `ahead` seconds from now."""
+    return Vec3(
+        env.shift[o, 0] + env.velocity[o, 0] * ahead,
+        env.shift[o, 1] + env.velocity[o, 1] * ahead,
+        env.shift[o, 2] + env.velocity[o, 2] * ahead,
+    )
 
-    The support is the index of an obstacle, or GROUND (-1). Between equals the ground wins, then
+
+@kernel
+def surface(env: EnvironmentTable, x: float, z: float) -> tuple[float, int]:
+    """Return the height of the highest surface at a plan point now, and what it is."""
+    return surface_at(env, x, z, 0.0)
+
+
+@kernel
+def surface_at(env: EnvironmentTable, x: float, z: float, ahead: float) -> tuple[float, int]:
+    """Return the height of the highest surface at a plan point `ahead` seconds from now.
+
+    Also what it is: the index of an obstacle, or GROUND (-1). Between equals the ground wins, then
     the lower index.
     """
     height = ground_height(env, x, z)
@@ -144,13 +168,16 @@ def surface(env: EnvironmentTable, x: float, z: float) -> tuple[float, int]:
     if bucket >= 0:
         for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
             o = env.bucket_item[i]
+            shift = shift_of(env, o, ahead)
+            own_x = x - shift.x
+            own_z = z - shift.z
             if (
-                x >= env.bounds[o, 0]
-                and x <= env.bounds[o, 3]
-                and z >= env.bounds[o, 2]
-                and z <= env.bounds[o, 5]
+                own_x >= env.bounds[o, 0]
+                and own_x <= env.bounds[o, 3]
+                and own_z >= env.bounds[o, 2]
+                and own_z <= env.bounds[o, 5]
             ):
-                top = column_of(env, o, x, z)[1]
+                top = column_of(env, o, own_x, own_z)[1] + shift.y
                 if top > height:
                     height = top
                     support = o
@@ -159,16 +186,29 @@ def surface(env: EnvironmentTable, x: float, z: float) -> tuple[float, int]:
 
 @kernel
 def surface_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
-    """Return the unit normal of the highest surface at a plan point."""
-    support = surface(env, x, z)[1]
+    """Return the unit normal of the highest surface at a plan point now."""
+    return surface_normal_at(env, x, z, 0.0)
+
+
+@kernel
+def surface_normal_at(env: EnvironmentTable, x: float, z: float, ahead: float) -> Vec3:
+    """Return the unit normal of the highest surface at a plan point `ahead` seconds from now."""
+    support = surface_at(env, x, z, ahead)[1]
     if support == GROUND:
         return ground_normal(env, x, z)
-    return top_normal_of(env, support, x, z)
+    shift = shift_of(env, support, ahead)
+    return top_normal_of(env, support, x - shift.x, z - shift.z)
 
 
 @kernel
 def is_forbidden(env: EnvironmentTable, x: float, z: float, margin: float) -> bool:
-    """Say whether a forbidden obstacle's footprint comes within `margin` metres in plan."""
+    """Say whether a forbidden obstacle's footprint is within `margin` metres in plan now."""
+    return is_forbidden_at(env, x, z, margin, 0.0)
+
+
+@kernel
+def is_forbidden_at(env: EnvironmentTable, x: float, z: float, margin: float, ahead: float) -> bool:
+    """Say whether a forbidden footprint will be within `margin` m in plan `ahead` s from now."""
     if env.forbidden_count == 0:
         return False
     left = bucket_line(env.bucket_place, env.bucket_shape, x - margin, 0)
@@ -184,7 +224,8 @@ def is_forbidden(env: EnvironmentTable, x: float, z: float, margin: float) -> bo
                     env.bucket_range, o, row, column, top, left
                 ):
                     continue
-                if plan_distance(env, o, x, z) <= margin:
+                shift = shift_of(env, o, ahead)
+                if plan_distance(env, o, x - shift.x, z - shift.z) <= margin:
                     return True
     return False
 
@@ -203,11 +244,33 @@ def is_wet(env: EnvironmentTable, x: float, z: float) -> bool:
 
 
 @kernel
-def penetration(env: EnvironmentTable, point_world: Vec3) -> tuple[float, int]:
-    """Return how deep a point is inside something, in metres, and in what; outside at most 0.
+def mover_depth(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int) -> float:
+    """Return how deep a point will be inside anything that moves but `own`, `ahead` s from now; m.
 
-    In an obstacle it is the exact distance to its surface. In the terrain it is the distance to the
-    plane that touches the ground right above: the vertical depth times the slope's cosine.
+    Outside it is below zero and its size at most the distance; minus infinity where nothing moves.
+    """
+    deepest = -math.inf
+    for i in range(env.mover_count):
+        o = env.movers[i]
+        if o != own:
+            depth = depth_inside(env, o, point_world - shift_of(env, o, ahead))
+            deepest = max(deepest, depth)
+    return deepest
+
+
+@kernel
+def penetration(env: EnvironmentTable, point_world: Vec3) -> tuple[float, int]:
+    """Return how deep a point is inside something now, in metres, and in what."""
+    return penetration_at(env, point_world, 0.0)
+
+
+@kernel
+def penetration_at(env: EnvironmentTable, point_world: Vec3, ahead: float) -> tuple[float, int]:
+    """Return how deep a point will be inside something `ahead` s from now; outside at most 0.
+
+    In metres, and in what. In an obstacle it is the exact distance to its surface. In the terrain
+    it is the distance to the plane that touches the ground right above: the vertical depth times
+    the slope's cosine.
     """
     below = ground_height(env, point_world.x, point_world.z) - point_world.y
     depth = below * ground_normal(env, point_world.x, point_world.z).y
@@ -216,7 +279,7 @@ def penetration(env: EnvironmentTable, point_world: Vec3) -> tuple[float, int]:
     if bucket >= 0:
         for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
             o = env.bucket_item[i]
-            inside = depth_inside(env, o, point_world)
+            inside = depth_inside(env, o, point_world - shift_of(env, o, ahead))
             if inside > depth:
                 depth = inside
                 support = o

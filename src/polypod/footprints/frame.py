@@ -95,6 +95,7 @@ def request_in(frame: FootFrame, request: StepRequest) -> StepRequest:
         request.frame_seconds,
         request.launch,
         request.level_height,
+        request.stance_seconds,
         request.level_weight,
     )
 

@@ -50,7 +50,7 @@ def try_pair(
             return NOTHING, 0.0
         if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
             return NOTHING, 0.0
-        if deepest(env, settings.penetration * leg, trial, lift.extra) <= 0.0:
+        if deepest(env, settings.penetration * leg, request, trial, lift.extra) <= 0.0:
             if not chords_clear(env, settings.chord * leg, request, trial):
                 return NOTHING, 0.0
             return pair, quality

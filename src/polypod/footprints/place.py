@@ -6,8 +6,20 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.environment.table import EnvironmentTable, is_forbidden, is_wet, surface
-from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
+from polypod.environment.table import (
+    EnvironmentTable,
+    is_forbidden_at,
+    is_wet,
+    mover_depth,
+    surface_at,
+)
+from polypod.footprints.settings import (
+    FootShape,
+    PlanSettings,
+    StepRequest,
+    foot_shape,
+    landing_time,
+)
 from polypod.math.vec3 import Vec3, distance
 from polypod.paths.check import leg_gap
 from polypod.paths.near import obstacles_near
@@ -23,6 +35,11 @@ TOO_HIGH = 0.7
 # Shorter stances have no course, leg lengths.
 SHORTEST_COURSE = 0.05
 LOWEST = -1e300
+# A place is safe where nothing comes within this share of the stance, looked at so often, at a
+# point so many leg lengths above the sole.
+SAFE_STANCE = 0.6
+STAND_SAMPLES = 4
+ON_FOOT = 0.03
 
 
 @kernel
@@ -35,6 +52,7 @@ def even_score(
     x: float,
     y: float,
     z: float,
+    ahead: float,
 ) -> float:
     """Return 1 for a plane under the foot's shape down to 0 at the tolerance; REJECTED beyond.
 
@@ -45,10 +63,10 @@ def even_score(
     cosine = foot.cosine
     half_x = foot.half_x + toe
     half_z = foot.half_z + toe
-    east, _ = surface(env, x + half_x * cosine, z - half_x * sine)
-    west, _ = surface(env, x - half_x * cosine, z + half_x * sine)
-    north, _ = surface(env, x + half_z * sine, z + half_z * cosine)
-    south, _ = surface(env, x - half_z * sine, z - half_z * cosine)
+    east, _ = surface_at(env, x + half_x * cosine, z - half_x * sine, ahead)
+    west, _ = surface_at(env, x - half_x * cosine, z + half_x * sine, ahead)
+    north, _ = surface_at(env, x + half_z * sine, z + half_z * cosine, ahead)
+    south, _ = surface_at(env, x - half_z * sine, z - half_z * cosine, ahead)
     slope_x = (east - west) / (2.0 * half_x)
     slope_z = (north - south) / (2.0 * half_z)
     if slope_x * slope_x + slope_z * slope_z > steepest * steepest:
@@ -57,7 +75,7 @@ def even_score(
     for corner in range(4):
         a = half_x if corner < 2 else -half_x
         b = half_z if corner % 2 == 0 else -half_z
-        height, _ = surface(env, x + a * cosine + b * sine, z - a * sine + b * cosine)
+        height, _ = surface_at(env, x + a * cosine + b * sine, z - a * sine + b * cosine, ahead)
         rough = max(rough, abs(height - y - slope_x * a - slope_z * b))
     return REJECTED if rough > tolerance else 1.0 - rough / tolerance
 
@@ -72,6 +90,7 @@ def edge_score(
     x: float,
     y: float,
     z: float,
+    ahead: float,
 ) -> float:
     """Return the share of a ring about the foot that continues its surface without edge or wall."""
     ring_x = foot.half_x + out
@@ -83,8 +102,8 @@ def edge_score(
         b = ring_z * (1.0 if k == 2 else (0.7 if k == 1 else (-0.7 if k == 3 else 0.0)))
         dx = a * foot.cosine + b * foot.sine
         dz = -a * foot.sine + b * foot.cosine
-        there, _ = surface(env, x + dx, z + dz)
-        opposite, _ = surface(env, x - dx, z - dz)
+        there, _ = surface_at(env, x + dx, z + dz, ahead)
+        opposite, _ = surface_at(env, x - dx, z - dz, ahead)
         steep = max(abs(there - y), abs(opposite - y)) > steepest * math.hypot(dx, dz)
         if abs(there + opposite - 2.0 * y) <= drop and not steep:
             good += 0.25
@@ -100,6 +119,7 @@ def exit_score(
     high: float,
     heading: float,
     step: float,
+    ahead: float,
 ) -> float:
     """Return how well the next step can leave the place: 1 ahead, less to the sides, 0 not at all.
 
@@ -121,8 +141,8 @@ def exit_score(
             along = step * j / EXIT_SAMPLES
             to_x = x + sine * along
             to_z = z + cosine * along
-            height, _ = surface(env, to_x, to_z)
-            if height > high or is_forbidden(env, to_x, to_z, margin):
+            height, _ = surface_at(env, to_x, to_z, ahead)
+            if height > high or is_forbidden_at(env, to_x, to_z, margin, ahead):
                 free = False
                 break
         if free:
@@ -207,6 +227,32 @@ def reach_score(settings: PlanSettings, request: StepRequest, place: Vec3) -> fl
 
 
 @kernel
+def is_run_over(
+    env: EnvironmentTable,
+    request: StepRequest,
+    settings: PlanSettings,
+    support: int,
+    place: Vec3,
+    ahead: float,
+) -> bool:
+    """Return whether something moves into a place soon after a foot has landed there.
+
+    `support` is what the foot will stand on, and be carried by.
+    """
+    drift = Vec3(0.0, 0.0, 0.0)
+    if support >= 0:
+        drift = Vec3(env.velocity[support, 0], env.velocity[support, 1], env.velocity[support, 2])
+    leg = request.leg_length
+    over = place + Vec3(0.0, ON_FOOT * leg, 0.0)
+    radius = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * leg
+    for k in range(1, STAND_SAMPLES + 1):
+        later = request.stance_seconds * SAFE_STANCE * k / STAND_SAMPLES
+        if mover_depth(env, over + drift * later, ahead + later, support) > -radius:
+            return True
+    return False
+
+
+@kernel
 def judge_place(
     env: EnvironmentTable,
     settings: PlanSettings,
@@ -227,25 +273,28 @@ def judge_place(
         x: world x, m.
         z: world z, m.
     """
-    y, _ = surface(env, x, z)
+    ahead = landing_time(request)
+    y, support = surface_at(env, x, z, ahead)
     reach = reach_score(settings, request, Vec3(x, y, z))
     foot = foot_shape(request)
     if reach < 0.0 or is_foot_wet(env, foot, x, z):
         return REJECTED, y
     leg = request.leg_length
     margin = foot.radius + settings.forbidden_margin * leg
-    if is_forbidden(env, x, z, margin):
+    if is_forbidden_at(env, x, z, margin, ahead):
+        return REJECTED, y
+    if env.mover_count > 0 and is_run_over(env, request, settings, support, Vec3(x, y, z), ahead):
         return REJECTED, y
     even = edge = leave = 1.0
     flat = env.terrain_range[0] == env.terrain_range[1]
     wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
     if not flat or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
         tolerance = settings.uneven * leg + settings.uneven_foot * foot.radius
-        even = even_score(env, foot, settings.toe * leg, settings.slope, tolerance, x, y, z)
+        even = even_score(env, foot, settings.toe * leg, settings.slope, tolerance, x, y, z, ahead)
         if even < 0.0:
             return REJECTED, y
         edge = edge_score(
-            env, foot, settings.edge * leg, settings.slope, settings.drop * leg, x, y, z
+            env, foot, settings.edge * leg, settings.slope, settings.drop * leg, x, y, z, ahead
         )
     course_x = request.hip_end_of_stance.x - request.hip_touchdown.x
     course_z = request.hip_end_of_stance.z - request.hip_touchdown.z
@@ -256,7 +305,7 @@ def judge_place(
         or obstacles_near(env, x - step, z - step, x + step, z + step, high, near) > 0
     ):
         heading = math.atan2(course_x, course_z)
-        leave = exit_score(env, margin, x, z, high, heading, step)
+        leave = exit_score(env, margin, x, z, high, heading, step, ahead)
     factor = leg_factor(settings, request, legs, x, z)
     if factor < 0.0:
         return REJECTED, y

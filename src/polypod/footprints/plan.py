@@ -6,7 +6,7 @@ import math
 
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
-from polypod.environment.table import EnvironmentTable, surface
+from polypod.environment.table import EnvironmentTable, surface_at
 from polypod.footprints.beside import is_open, try_beside
 from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
 from polypod.footprints.frame import foot_frame, legs_in, legs_out, path_out, request_in
@@ -21,7 +21,7 @@ from polypod.footprints.scratch import (
     PlanScratch,
     make_plan_scratch,
 )
-from polypod.footprints.settings import DETOUR, PlanSettings, StepRequest
+from polypod.footprints.settings import DETOUR, PlanSettings, StepRequest, landing_time
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 from polypod.paths.curve import PathRow, copy_path
 from polypod.paths.score import path_score_bound, plan_bending
@@ -65,6 +65,7 @@ def fill_window(
         request.foot_half_x + toe,
         request.foot_half_z + toe,
         request.foot_yaw,
+        landing_time(request),
     )
 
 
@@ -157,7 +158,7 @@ def search(
     """
     start = request.start_world
     wanted = request.preferred_world
-    y, _ = surface(env, wanted.x, wanted.z)
+    y, _ = surface_at(env, wanted.x, wanted.z, landing_time(request))
     window = scratch.window
     near = scratch.lift.near
     fill_window(env, settings, request, window)

@@ -104,7 +104,17 @@ class StepRequest(NamedTuple):
     frame_seconds: float = 0.0  # between two frames, whose chords are checked; 0: the curve alone
     launch: float = 0.0  # speed at the path's start over its mean speed
     level_height: float = 0.0  # m, where the other feet stand, under the preferred place
+    stance_seconds: float = 0.0  # how long the foot will stand
     level_weight: float = 0.0  # what a place at that height is worth, beside the settings' weights
+
+
+@kernel
+def landing_time(request: StepRequest) -> float:
+    """Return how many seconds from now the foot lands.
+
+    Obstacles are already where they are at the end of this frame, and feet where they were before.
+    """
+    return max(request.swing_seconds - request.frame_seconds, 0.0)
 
 
 @kernel

@@ -6,11 +6,23 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.environment.table import EnvironmentTable, is_forbidden, penetration
+from polypod.environment.table import (
+    EnvironmentTable,
+    is_forbidden_at,
+    penetration,
+    penetration_at,
+)
 from polypod.footprints.settings import StepRequest
 from polypod.math.hermite import hermite
 from polypod.math.vec3 import distance, load_vec3, mix
-from polypod.paths.curve import PATH_KNOTS, PROFILE_BELL, PathRow, path_point, swing_progress
+from polypod.paths.curve import (
+    PATH_KNOTS,
+    PROFILE_BELL,
+    PathRow,
+    path_point,
+    swing_progress,
+    swing_time,
+)
 from polypod.paths.scratch import OtherLegs
 
 # The most that a bell-shaped swing exceeds its mean speed.
@@ -113,15 +125,19 @@ def chords_clear(
         after = path_point(path.point, path.tangent, path.fraction, PATH_KNOTS, along)
         for i in range(1, CHORD_SAMPLES):
             place = mix(before, after, i / CHORD_SAMPLES)
-            depth, _ = penetration(env, place)
-            if depth > accepted or is_forbidden(env, place.x, place.z, 0.0):
+            # Obstacles are a frame ahead of the foot: they are where this frame ends.
+            ahead = max(frame - 2.0 + i / CHORD_SAMPLES, 0.0) * request.frame_seconds
+            depth, _ = penetration_at(env, place, ahead)
+            if depth > accepted or is_forbidden_at(env, place.x, place.z, 0.0, ahead):
                 return False
         before = after
     return True
 
 
 @kernel
-def deepest(env: EnvironmentTable, accepted: float, path: PathRow, extra: Any) -> float:
+def deepest(
+    env: EnvironmentTable, accepted: float, request: StepRequest, path: PathRow, extra: Any
+) -> float:
     """Return how deep the path goes into true shapes beyond `accepted`; m, 0: not at all.
 
     What is missing is added to `extra` [PATH_KNOTS] at the knots about it, for a second try. A foot
@@ -137,7 +153,12 @@ def deepest(env: EnvironmentTable, accepted: float, path: PathRow, extra: Any) -
         m1 = load_vec3(path.tangent[k + 1]) * span
         for j in range(EXACT_SAMPLES):
             u = (j + 1.0) / EXACT_SAMPLES
-            depth, _ = penetration(env, hermite(p0, m0, p1, m1, u))
+            ahead = 0.0
+            if env.mover_count > 0:
+                along = path.fraction[k] + span * u
+                time = swing_time(along, request.launch) * request.swing_seconds
+                ahead = max(time - request.frame_seconds, 0.0)
+            depth, _ = penetration_at(env, hermite(p0, m0, p1, m1, u), ahead)
             excess = depth - accepted
             if sunk > 0.0 and path.fraction[k] < 0.1:
                 excess -= sunk

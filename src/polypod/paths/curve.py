@@ -16,6 +16,7 @@ from polypod.math.hermite import hermite, hermite_slope
 from polypod.math.vec3 import Vec3, load_vec3
 
 PATH_KNOTS = 32
+HALVINGS = 8  # of the swing's time
 # Time profiles of a swing, by number for kernels and by name for people.
 PROFILE_BELL = 0
 PROFILE_CONSTANT = 1
@@ -134,6 +135,21 @@ def swing_progress(profile: int, time: float, start_speed: float) -> tuple[float
     progress = u * (v + u * u * (c3 + u * (c4 + u * c5)))
     rate = v + u * u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5))
     return progress, rate
+
+
+@kernel
+def swing_time(progress: float, start_speed: float) -> float:
+    """Return the time at which a bell-shaped swing has come so far; both are shares."""
+    low = 0.0
+    high = 1.0
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        reached, _ = swing_progress(PROFILE_BELL, middle, start_speed)
+        if reached < progress:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
 
 
 @kernel

@@ -8,12 +8,13 @@ from polypod.compute import kernel
 from polypod.environment.table import (
     EnvironmentTable,
     ground_height,
-    is_forbidden,
+    is_forbidden_at,
     surface,
+    surface_at,
 )
 from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
 from polypod.math.vec3 import Vec3, distance, dot, length, load_vec3, store_vec3
-from polypod.paths.curve import PATH_KNOTS, PathRow
+from polypod.paths.curve import PATH_KNOTS, PathRow, swing_time
 from polypod.paths.hull import hull_curve, upper_hull
 from polypod.paths.near import meets_near, obstacles_near
 from polypod.paths.scratch import LiftScratch
@@ -101,9 +102,11 @@ def place_knots(
 
 
 @kernel
-def foot_top(env: EnvironmentTable, foot: FootShape, x: float, z: float, grow: float) -> float:
+def foot_top(
+    env: EnvironmentTable, foot: FootShape, x: float, z: float, grow: float, ahead: float
+) -> float:
     """Return the highest surface under a foot's shape grown by `grow` (m; negative shrinks it)."""
-    top, _ = surface(env, x, z)
+    top, _ = surface_at(env, x, z, ahead)
     half_x = max(foot.half_x + grow, 0.0)
     half_z = max(foot.half_z + grow, 0.0)
     if half_x == 0.0 and half_z == 0.0:
@@ -111,9 +114,8 @@ def foot_top(env: EnvironmentTable, foot: FootShape, x: float, z: float, grow: f
     for corner in range(4):
         a = half_x if corner < 2 else -half_x
         b = half_z if corner % 2 == 0 else -half_z
-        at, _ = surface(
-            env, x + a * foot.cosine + b * foot.sine, z - a * foot.sine + b * foot.cosine
-        )
+        at_x = x + a * foot.cosine + b * foot.sine
+        at, _ = surface_at(env, at_x, z - a * foot.sine + b * foot.cosine, ahead)
         top = max(top, at)
     return top
 
@@ -152,6 +154,10 @@ def require(
         span = lift.station[k] - lift.station[k - 1]
         samples = 1 if level and count == 0 else math.ceil(span / (SAMPLE * leg))
         arc = min(lift.arc[k - 1], lift.arc[k])
+        ahead = 0.0
+        if env.mover_count > 0:
+            time = swing_time(lift.station[k] / total, request.launch)
+            ahead = max(time * request.swing_seconds - request.frame_seconds, 0.0)
         top = -1e300
         for j in range(samples):
             u = (j + 1.0) / samples
@@ -162,10 +168,10 @@ def require(
             met = 2
             if count == listed:
                 met = meets_near(env, lift.near, count, x, z, wide, arc - clearance)
-            if met == 2 and is_forbidden(env, x, z, barred * share):
+            if met == 2 and is_forbidden_at(env, x, z, barred * share, ahead):
                 return False
             if met > 0:
-                height = foot_top(env, foot, x, z, full * share - foot.radius)
+                height = foot_top(env, foot, x, z, full * share - foot.radius, ahead)
             else:
                 height = ground_height(env, x, z)
             top = max(top, height + clearance * share)

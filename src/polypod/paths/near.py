@@ -30,11 +30,11 @@ def obstacles_near(
             for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
                 o = env.bucket_item[i]
                 if (
-                    env.bounds[o, 0] <= x1
-                    and env.bounds[o, 3] >= x0
-                    and env.bounds[o, 2] <= z1
-                    and env.bounds[o, 5] >= z0
-                    and (env.forbidden[o] or env.bounds[o, 4] > above)
+                    env.swept[o, 0] <= x1
+                    and env.swept[o, 3] >= x0
+                    and env.swept[o, 2] <= z1
+                    and env.swept[o, 5] >= z0
+                    and (env.forbidden[o] or env.swept[o, 4] > above)
                     and first_met(env.bucket_range, o, row, column, top, left)
                 ):
                     if count < near.shape[0]:
@@ -49,19 +49,19 @@ def meets_near(
 ) -> int:
     """Return 0 where no listed obstacle can matter to a foot at a place, 2 for a forbidden one.
 
-    1 for others: within `margin` (m) of the obstacle's bounds in plan, and higher than `height`.
+    1 for others: within `margin` (m) of the bounds of its way in plan, and higher than `height`.
     """
     found = 0
     for i in range(count):
         o = near[i]
         if (
-            x + margin >= env.bounds[o, 0]
-            and x - margin <= env.bounds[o, 3]
-            and z + margin >= env.bounds[o, 2]
-            and z - margin <= env.bounds[o, 5]
+            x + margin >= env.swept[o, 0]
+            and x - margin <= env.swept[o, 3]
+            and z + margin >= env.swept[o, 2]
+            and z - margin <= env.swept[o, 5]
         ):
             if env.forbidden[o]:
                 return 2
-            if env.bounds[o, 4] > height:
+            if env.swept[o, 4] > height:
                 found = 1
     return found

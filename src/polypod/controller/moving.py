@@ -1,0 +1,104 @@
+"""Feet among obstacles that move: carried by what they stand on, out of the way of what comes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from polypod.compute import kernel
+from polypod.controller.swing import drift, foot_along, swing_time_left
+from polypod.environment.table import mover_depth
+from polypod.math.vec3 import Vec3, load_vec3, store_vec3
+
+# Ways and standing feet are looked at in so many moments ahead.
+MOMENTS = 6
+# A standing foot looks so far ahead: swings' durations.
+FORESIGHT = 0.8
+# Where it is looked at, leg lengths above the sole, and the room that it keeps.
+ON_FOOT = 0.03
+ROOM = 0.03
+
+
+@kernel
+def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
+    """Move the standing feet with what they stand on, and the body with them.
+
+    What a swinging foot is to land on may not have come where it was foreseen: its target goes with
+    it.
+    """
+    count = state.swinging.shape[1]
+    carried = Vec3(0.0, 0.0, 0.0)
+    standing = 0
+    for k in range(count):
+        if state.swinging[c, k]:
+            state.plan_clock[c, k] += dt
+            if state.landing_support[c, k] >= 0:
+                last = state.path.count[c, k, 0] - 1
+                end = load_vec3(state.path.point[c, k, last])
+                store_vec3(state.foot_target[c, k], end + drift(c, k, 1.0, state, env))
+            continue
+        standing += 1
+        support = state.foot_support[c, k]
+        if support < 0:
+            continue
+        step = load_vec3(env.step[support])
+        carried = carried + step
+        store_vec3(state.foot[c, k], load_vec3(state.foot[c, k]) + step)
+        store_vec3(state.foot_target[c, k], load_vec3(state.foot_target[c, k]) + step)
+        store_vec3(state.foot_preferred[c, k], load_vec3(state.foot_preferred[c, k]) + step)
+    if standing > 0:
+        carried = carried * (1.0 / standing)
+        store_vec3(state.position[c], load_vec3(state.position[c]) + carried)
+        state.lift[c, 0] += carried.y
+        state.lift[c, 2] += carried.y
+
+
+@kernel
+def way_blocked(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
+    """Return whether something will move into a swinging foot's way."""
+    now = state.swing_progress[c, k]
+    left = swing_time_left(c, k, state)
+    for j in range(1, MOMENTS + 1):
+        share = j / MOMENTS
+        sole, _ = foot_along(c, k, now + (1.0 - now) * share, state, env)
+        own = state.landing_support[c, k]
+        if mover_depth(env, sole, left * share, own) > 0.0:
+            return True
+    return False
+
+
+@kernel
+def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
+    """Return whether something will soon run into a standing foot."""
+    if state.cycle_rate[c] <= 0.0:
+        horizon = 2.0 * tables.pendulum_time
+    else:
+        horizon = FORESIGHT * state.swing_extent[c, k] / state.cycle_rate[c]
+    leg = tables.legs.length[k]
+    half = max(tables.legs.foot_half_size[k, 0], tables.legs.foot_half_size[k, 1])
+    support = state.foot_support[c, k]
+    velocity = Vec3(0.0, 0.0, 0.0)
+    if support >= 0:
+        velocity = load_vec3(env.velocity[support])
+    over = load_vec3(state.foot[c, k]) + Vec3(0.0, ON_FOOT * leg, 0.0)
+    for j in range(MOMENTS + 1):
+        ahead = horizon * j / MOMENTS
+        if mover_depth(env, over + velocity * ahead, ahead, support) > -(half + ROOM * leg):
+            return True
+    return False
+
+
+@kernel
+def foot_in_the_way(c: int, state: Any, tables: Any, env: Any, scratch: Any) -> int:
+    """Return a standing foot that must step away at once; as many as feet: none.
+
+    Each is asked once a step: `scratch.held` notes those that were.
+    """
+    count = state.swinging.shape[1]
+    if env.mover_count == 0:
+        return int(count)
+    for k in range(count):
+        if state.swinging[c, k] or scratch.held[k]:
+            continue
+        if is_threatened(c, k, state, tables, env):
+            return int(k)
+    return int(count)
