@@ -6,6 +6,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.feet import Errand
+from polypod.environment.table import shift_of
 from polypod.gait.needle import progress_since_lift, swing_progress
 from polypod.math.quat import Quat, load_quat, slerp
 from polypod.math.vec3 import Vec3, length_plan, load_vec3
@@ -136,12 +137,11 @@ def drift(c: int, k: int, along: float, state: Any, env: Any) -> Vec3:
     support = state.landing_support[c, k]
     if support < 0:
         return Vec3(0.0, 0.0, 0.0)
-    velocity = load_vec3(state.plan_velocity[c, k])
-    clock = state.plan_clock[c, k]
-    moved = load_vec3(env.shift[support]) - load_vec3(state.plan_shift[c, k])
-    left = velocity * (state.plan_seconds[c, k] - clock)
+    left = max(state.plan_seconds[c, k] - state.plan_clock[c, k], 0.0)
+    foreseen = shift_of(env, support, left)
+    surprise = foreseen - load_vec3(state.plan_shift[c, k])
     late = along * along * along * along
-    return (moved - velocity * clock) * along - left * (late * late)
+    return surprise * along - (foreseen - load_vec3(env.shift[support])) * (late * late)
 
 
 @kernel

@@ -67,6 +67,8 @@ def build_table(
         movers=movers,
         shift=np.zeros((len(obstacles), 3)),
         velocity=np.zeros((len(obstacles), 3)),
+        turn_in=np.full(len(obstacles), np.inf),
+        next_velocity=np.zeros((len(obstacles), 3)),
         step=np.zeros((len(obstacles), 3)),
         swept=bounds.copy(),
         bucket_place=place,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from polypod.environment.build import build_table
-from polypod.environment.motion import Track, list_obstacles
+from polypod.environment.motion import make_tracks, move_obstacles
 from polypod.environment.obstacles import LARGEST, Obstacle
 from polypod.environment.table import EnvironmentTable
 from polypod.environment.terrain import Terrain
@@ -36,17 +36,16 @@ class Environment:
         self.terrain = Terrain.flat() if terrain is None else terrain
         self.obstacles: tuple[Obstacle, ...] = (*obstacles, *self.terrain.parts)
         self.movable = movable and len(self.obstacles) > 0
-        self._tracks = {i: Track(o) for i, o in enumerate(self.obstacles) if o.moves}
+        self._tracks = make_tracks(self.obstacles)
+        self._kernel_tracks = by_reference(self._tracks)
         self._moved: dict[int, np.ndarray[Any, np.dtype[np.float64]]] = {}
 
     @cached_property
     def table(self) -> EnvironmentTable:
         """What kernels read, made when first asked for."""
         table = build_table(self.terrain, self.obstacles, self.movable)
-        if self._tracks or self.movable:
-            for index, track in self._tracks.items():
-                table.velocity[index] = track.at(0.0)[1]
-            list_obstacles(by_reference(table))
+        if self.changes:
+            move_obstacles(by_reference(table), self._kernel_tracks, 0.0)
         return table
 
     @cached_property
@@ -57,7 +56,7 @@ class Environment:
     @property
     def changes(self) -> bool:
         """Whether anything moves or may be moved."""
-        return bool(self._tracks) or self.movable
+        return len(self._tracks.obstacle) > 0 or self.movable
 
     def move(self, index: int, position: ArrayLike, velocity: ArrayLike = (0.0, 0.0, 0.0)) -> None:
         """Put an obstacle's centre elsewhere, m; it is there from the next step on.
@@ -70,7 +69,7 @@ class Environment:
         """
         if not self.movable:
             raise SceneError("nothing here can be moved: make the Environment with movable=True")
-        if not 0 <= index < len(self.obstacles) or index in self._tracks:
+        if not 0 <= index < len(self.obstacles) or index in self._tracks.obstacle:
             raise SceneError(
                 f"obstacle {index} cannot be moved; it must be one of the "
                 f"{len(self.obstacles)} that are here, and not move by itself"
@@ -90,13 +89,11 @@ class Environment:
         if not self.changes:
             return
         table = self.table
-        table.step[:] = -table.shift
-        for index, track in self._tracks.items():
-            table.shift[index], table.velocity[index] = track.at(time)
+        np.negative(table.shift, out=table.step)
         for index, shift in self._moved.items():
             table.shift[index] = shift
+        move_obstacles(self.kernel_table, self._kernel_tracks, time)
         table.step[:] += table.shift
-        list_obstacles(self.kernel_table)
 
     def places(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """Return the present centres of all obstacles [O, 3], m."""

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,35 +12,82 @@ from polypod.compute import kernel
 from polypod.environment.build import MOST_BUCKETS_MOVING
 from polypod.environment.convex import FloatArray
 from polypod.environment.obstacles import Obstacle
-from polypod.environment.table import EnvironmentTable
+from polypod.environment.table import EnvironmentTable, IntArray
 
 # So far ahead in seconds obstacles are listed where they will be: no swing takes longer.
 HORIZON = 1.5
 
 
-class Track:
-    """The way of one obstacle: constant velocity, or round a closed path at constant speed."""
+class Tracks(NamedTuple):
+    """The ways of M obstacles that move by themselves; P points are padded to the most.
 
-    def __init__(self, obstacle: Obstacle) -> None:
-        """Read what the obstacle says of its motion."""
-        self.velocity = np.array(obstacle.velocity)
+    Each goes straight from point to point and from the last to the first; what has a constant
+    velocity has one point, from which it goes for ever.
+    """
+
+    obstacle: IntArray  # [M]
+    points: IntArray  # [M] how many there are
+    point: FloatArray  # [M, P, 3] m, from where the obstacle starts
+    direction: FloatArray  # [M, P, 3] from each point to the next, unit
+    end: FloatArray  # [M, P] m of way, from the start to the end of each stretch
+    speed: FloatArray  # [M] m/s
+
+
+def make_tracks(obstacles: Sequence[Obstacle]) -> Tracks:
+    """Return the ways of those obstacles that move by themselves."""
+    moving = [i for i, obstacle in enumerate(obstacles) if obstacle.moves]
+    most = max([1 + len(obstacles[i].path) for i in moving], default=1)
+    tracks = Tracks(
+        obstacle=np.array(moving, dtype=np.int64),
+        points=np.ones(len(moving), np.int64),
+        point=np.zeros((len(moving), most, 3)),
+        direction=np.zeros((len(moving), most, 3)),
+        end=np.full((len(moving), most), np.inf),
+        speed=np.zeros(len(moving)),
+    )
+    for m, i in enumerate(moving):
+        obstacle = obstacles[i]
+        if not obstacle.path:
+            speed = math.hypot(*obstacle.velocity)
+            tracks.speed[m] = speed
+            tracks.direction[m, 0] = np.array(obstacle.velocity) / speed
+            continue
         points = np.array([obstacle.position, *obstacle.path])
         legs = np.roll(points, -1, axis=0) - points
         lengths = np.linalg.norm(legs, axis=1)
-        legs, self.lengths = legs[lengths > 0.0], lengths[lengths > 0.0]
-        self.starts = (points - points[0])[lengths > 0.0]
-        self.directions = legs / self.lengths[:, None] if len(legs) else legs
-        self.speed = obstacle.speed
+        real = lengths > 0.0
+        if not real.any():
+            continue
+        count = int(real.sum())
+        tracks.points[m] = count
+        tracks.speed[m] = obstacle.speed
+        tracks.point[m, :count] = (points - points[0])[real]
+        tracks.direction[m, :count] = legs[real] / lengths[real, None]
+        tracks.end[m, :count] = np.cumsum(lengths[real])
+    return tracks
 
-    def at(self, time: float) -> tuple[FloatArray, FloatArray]:
-        """Return how far [3] it is from its start at a time in seconds, and its velocity [3]."""
-        if len(self.lengths) == 0:
-            return self.velocity * time, self.velocity
-        ends = np.cumsum(self.lengths)
-        along = math.fmod(self.speed * time, float(ends[-1]))
-        leg = min(int(np.searchsorted(ends, along, side="right")), len(ends) - 1)
-        gone = along - (ends[leg] - self.lengths[leg])
-        return self.starts[leg] + self.directions[leg] * gone, self.directions[leg] * self.speed
+
+@kernel
+def move_obstacles(env: EnvironmentTable, tracks: Tracks, time: float) -> None:
+    """Put what moves by itself where it is at a time, seconds from the start, and list it there."""
+    for m in range(tracks.obstacle.shape[0]):
+        o = tracks.obstacle[m]
+        along = tracks.speed[m] * time
+        last = tracks.points[m] - 1
+        if tracks.end[m, last] < math.inf:
+            along = along % tracks.end[m, last]
+        leg = 0
+        while leg < last and along >= tracks.end[m, leg]:
+            leg += 1
+        after = leg + 1 if leg < last else 0
+        gone = along - (tracks.end[m, leg - 1] if leg > 0 else 0.0)
+        for axis in range(3):
+            env.shift[o, axis] = tracks.point[m, leg, axis] + tracks.direction[m, leg, axis] * gone
+            env.velocity[o, axis] = tracks.direction[m, leg, axis] * tracks.speed[m]
+            env.next_velocity[o, axis] = tracks.direction[m, after, axis] * tracks.speed[m]
+        if tracks.speed[m] > 0.0:
+            env.turn_in[o] = (tracks.end[m, leg] - along) / tracks.speed[m]
+    list_obstacles(env)
 
 
 @kernel
@@ -51,9 +100,13 @@ def list_obstacles(env: EnvironmentTable) -> None:
     z1 = -math.inf
     for o in range(count):
         for axis in range(3):
-            way = env.velocity[o, axis] * HORIZON
-            env.swept[o, axis] = env.bounds[o, axis] + env.shift[o, axis] + min(way, 0.0)
-            env.swept[o, 3 + axis] = env.bounds[o, 3 + axis] + env.shift[o, axis] + max(way, 0.0)
+            before = min(HORIZON, env.turn_in[o])
+            turn = env.velocity[o, axis] * before
+            end = turn + env.next_velocity[o, axis] * (HORIZON - before)
+            low = env.shift[o, axis] + min(turn, end, 0.0)
+            high = env.shift[o, axis] + max(turn, end, 0.0)
+            env.swept[o, axis] = env.bounds[o, axis] + low
+            env.swept[o, 3 + axis] = env.bounds[o, 3 + axis] + high
         x0 = min(x0, env.swept[o, 0])
         z0 = min(z0, env.swept[o, 2])
         x1 = max(x1, env.swept[o, 3])

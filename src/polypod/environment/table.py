@@ -53,6 +53,8 @@ class EnvironmentTable(NamedTuple):
     movers: IntArray  # [movers] their indices
     shift: FloatArray  # [O, 3] how far each now is from where all the above has it
     velocity: FloatArray  # [O, 3] m/s, now
+    turn_in: FloatArray  # [O] s until it takes another velocity, infinite where it keeps this one
+    next_velocity: FloatArray  # [O, 3] m/s, from then on
     step: FloatArray  # [O, 3] by how much it moved in this frame
     swept: FloatArray  # [O, 6] bounds of all that it will meet within the horizon
     bucket_place: FloatArray  # [3] x and z of the corner of bucket [0, 0], side of a bucket, m
@@ -142,10 +144,12 @@ def first_met(bucket_range: IntArray, o: int, row: int, column: int, top: int, l
 @kernel
 def shift_of(env: EnvironmentTable, o: int, ahead: float) -> Vec3:
     """Return how far obstacle `o` will be from where its rows have it, `ahead` seconds from now."""
+    before = min(ahead, env.turn_in[o])
+    after = ahead - before
     return Vec3(
-        env.shift[o, 0] + env.velocity[o, 0] * ahead,
-        env.shift[o, 1] + env.velocity[o, 1] * ahead,
-        env.shift[o, 2] + env.velocity[o, 2] * ahead,
+        env.shift[o, 0] + env.velocity[o, 0] * before + env.next_velocity[o, 0] * after,
+        env.shift[o, 1] + env.velocity[o, 1] * before + env.next_velocity[o, 1] * after,
+        env.shift[o, 2] + env.velocity[o, 2] * before + env.next_velocity[o, 2] * after,
     )
 
 
