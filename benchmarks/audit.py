@@ -83,7 +83,7 @@ def audit(
         least_share: how much of it must be walked.
     """
     played = play(recording)
-    ground = Ground(environment)
+    ground = Ground(environment, recording)
     walk = _Walk(recording, played)
     return {
         "distance": _distance(walk, commanded, least_share),
@@ -156,8 +156,9 @@ def _slip(walk: _Walk) -> Finding:
 def _standing(walk: _Walk, ground: Ground) -> dict[str, Finding]:
     stance, sole = walk.recording.foot_stance, walk.played.sole
     flat = sole.reshape(-1, 3)
-    surface = ground.surface(flat[:, 0], flat[:, 2]).reshape(stance.shape)
-    inside = ground.penetration(flat).reshape(stance.shape)
+    frame = np.repeat(np.arange(len(stance)), stance.shape[1])
+    surface = ground.surface(flat[:, 0], flat[:, 2], frame).reshape(stance.shape)
+    inside = ground.penetration(flat, frame).reshape(stance.shape)
     residual = np.linalg.norm(sole - walk.recording.foot_target, axis=2)
     return {
         "off": walk.worst(np.abs(sole[:, :, 1] - surface) / walk.leg, stance, 2e-3),
@@ -169,7 +170,8 @@ def _standing(walk: _Walk, ground: Ground) -> dict[str, Finding]:
 
 def _swinging(walk: _Walk, ground: Ground) -> dict[str, Finding]:
     swing, sole = ~walk.recording.foot_stance, walk.played.sole
-    inside = ground.penetration(sole.reshape(-1, 3)).reshape(swing.shape)
+    frame = np.repeat(np.arange(len(swing)), swing.shape[1])
+    inside = ground.penetration(sole.reshape(-1, 3), frame).reshape(swing.shape)
     residual = np.linalg.norm(sole - walk.recording.foot_target, axis=2) / walk.leg
     most = walk.worst(residual, swing, 1e-2)
     usual = float(np.quantile(residual[swing], 0.999, method="lower")) if swing.any() else 0.0

@@ -9,7 +9,7 @@ from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
-from polypod.environment.table import is_forbidden, surface
+from polypod.environment.table import clear_of_movers, is_forbidden, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 
@@ -60,6 +60,12 @@ def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
                     break
                 progress = 0.5 * (now + progress)
                 sole, turn = foot_along(c, k, progress, state, env)
+            if env.mover_count > 0:
+                # What came without warning pushes the foot aside, half way through the frame too.
+                own = state.landing_support[c, k]
+                middle = mix(before, sole, 0.5)
+                sole = sole + (clear_of_movers(env, middle, -0.5 * dt, own) - middle) * 2.0
+                sole = clear_of_movers(env, sole, 0.0, own)
             scratch.progress[k] = progress
         store_vec3(scratch.sole[k], sole)
         store_quat(scratch.turn[k], turn)

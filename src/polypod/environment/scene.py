@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -31,8 +31,9 @@ LARGEST_TURN = 1e4  # rad
 FASTEST = 1e3  # m/s
 LATEST = 1e6  # s
 LARGEST_SEED = 2**62
-# Keys of the format that this version refuses: of obstacles that move and of meshes.
-LATER = ("file", "velocity", "path", "speed")
+# Keys of the format that this version refuses: of meshes.
+LATER = ("file",)
+MOTION = ("velocity", "path", "speed")
 
 
 @dataclass(frozen=True)
@@ -182,7 +183,18 @@ def _obstacle(place: str, values: Any) -> Obstacle:
     table = SceneTable(
         place,
         values,
-        ("name", "shape", "size", "points", "position", "yaw", "rotation", "forbidden", *LATER),
+        (
+            "name",
+            "shape",
+            "size",
+            "points",
+            "position",
+            "yaw",
+            "rotation",
+            "forbidden",
+            *MOTION,
+            *LATER,
+        ),
     )
     shape = table.text("shape")
     if shape == "mesh":
@@ -194,8 +206,7 @@ def _obstacle(place: str, values: Any) -> Obstacle:
     for key in LATER:
         if key in table:
             raise SceneError(
-                f"{place} has {key}: obstacles that move and meshes are not supported in this "
-                "version; leave it out"
+                f"{place} has {key}: meshes are not supported in this version; leave it out"
             )
     if "yaw" in table and "rotation" in table:
         raise SceneError(f"{place} has both yaw and rotation; leave one out")
@@ -207,12 +218,32 @@ def _obstacle(place: str, values: Any) -> Obstacle:
     if "rotation" in table:
         rotation = table.numbers("rotation", "x y z w", None, -1.01, 1.01)  # type: ignore[assignment]
     forbidden = table.flag("forbidden", False)
-    if shape == "hull":
-        points = table.rows("points", "x y z", 4, MOST_HULL_POINTS)
-        return _within(place, lambda: Obstacle.hull(points, position, rotation, forbidden, name))
-    x, y, z = table.numbers("size", "x y z", None, SMALLEST, LARGEST)
-    centre = (position[0], position[1], position[2])
-    return _within(place, lambda: Obstacle(shape, (x, y, z), centre, rotation, forbidden, name))
+
+    def make() -> Obstacle:
+        if shape == "hull":
+            points = table.rows("points", "x y z", 4, MOST_HULL_POINTS)
+            still = Obstacle.hull(points, position, rotation, forbidden, name)
+        else:
+            x, y, z = table.numbers("size", "x y z", None, SMALLEST, LARGEST)
+            centre = (position[0], position[1], position[2])
+            still = Obstacle(shape, (x, y, z), centre, rotation, forbidden, name)
+        return replace(still, **_motion(table))
+
+    return _within(place, make)
+
+
+def _motion(table: SceneTable) -> dict[str, Any]:
+    """Return how an obstacle moves; nothing where it stands."""
+    if "path" in table and "velocity" in table:
+        raise SceneError("it has both velocity and path; leave one out")
+    motion: dict[str, Any] = {}
+    if "velocity" in table:
+        motion["velocity"] = table.numbers("velocity", "x y z", None, -FASTEST, FASTEST)
+    if "path" in table:
+        motion["path"] = tuple(table.rows("path", "x y z", 1, MOST_WAYPOINTS))
+    if "speed" in table:
+        motion["speed"] = table.number("speed", None, 0.0, FASTEST)
+    return motion
 
 
 def _scatter(place: str, values: Any, terrain: Terrain, more_seed: int) -> tuple[Obstacle, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
 from polypod.math.quat import load_quat, rotate, unrotate
-from polypod.math.vec3 import Vec3, load_vec3
+from polypod.math.vec3 import Vec3, dot, load_vec3, normalized
 
 if TYPE_CHECKING:
     from polypod.environment.table import EnvironmentTable
@@ -155,6 +155,34 @@ def depth_inside(env: EnvironmentTable, o: int, point: Vec3) -> float:
     local = unrotate(load_quat(env.rotation[o]), out)
     side = float(env.half_size[o, 0]) - math.sqrt(local.x * local.x + local.z * local.z)
     return min(side, float(env.half_size[o, 1]) - abs(local.y))
+
+
+@kernel
+def way_out(env: EnvironmentTable, o: int, point: Vec3) -> Vec3:
+    """Return the shortest move that brings a point in obstacle `o` to its surface; 0 outside."""
+    depth = depth_inside(env, o, point)
+    if depth <= 0.0:
+        return Vec3(0.0, 0.0, 0.0)
+    if env.kind[o] == BOX:
+        best = 0
+        nearest = math.inf
+        for p in range(env.plane_count[o]):
+            normal = load_vec3(env.planes[o, p])
+            room = env.planes[o, p, 3] - dot(normal, point)
+            if room < nearest:
+                nearest = room
+                best = p
+        return load_vec3(env.planes[o, best]) * depth
+    out = point - load_vec3(env.position[o])
+    if env.kind[o] == SPHERE:
+        return normalized(out, Vec3(0.0, 1.0, 0.0)) * depth
+    turn = load_quat(env.rotation[o])
+    local = unrotate(turn, out)
+    side = env.half_size[o, 0] - math.hypot(local.x, local.z)
+    if side <= depth:
+        flat = normalized(Vec3(local.x, 0.0, local.z), Vec3(1.0, 0.0, 0.0))
+        return rotate(turn, flat * depth)
+    return rotate(turn, Vec3(0.0, math.copysign(depth, local.y), 0.0))
 
 
 @kernel

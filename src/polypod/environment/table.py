@@ -14,7 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.compute import kernel
-from polypod.environment.shapes import column_of, depth_inside, plan_distance, top_normal_of
+from polypod.environment.shapes import (
+    column_of,
+    depth_inside,
+    plan_distance,
+    top_normal_of,
+    way_out,
+)
 from polypod.math.vec3 import Vec3
 
 FloatArray = NDArray[np.float64]
@@ -260,6 +266,20 @@ def mover_depth(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int
             depth = depth_inside(env, o, point_world - shift_of(env, o, ahead))
             deepest = max(deepest, depth)
     return deepest
+
+
+@kernel
+def clear_of_movers(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int) -> Vec3:
+    """Return a point, or the place by it that nothing that moves, but `own`, takes up.
+
+    `ahead` s from now.
+    """
+    for i in range(env.mover_count):
+        o = env.movers[i]
+        if o == own:
+            continue
+        point_world = point_world + way_out(env, o, point_world - shift_of(env, o, ahead))
+    return point_world
 
 
 @kernel

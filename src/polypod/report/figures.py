@@ -46,7 +46,7 @@ def measure(
     Returns:
         Numbers, texts, lists of numbers and None, by name, in the order in which they read best.
     """
-    ground = Ground(environment)
+    ground = Ground(environment, recording)
     seconds = float(recording.time[-1] - recording.time[0])
     return {
         "frames": len(recording.time),
@@ -69,7 +69,7 @@ def measure_played(
 
     A sole as played is its node's world matrix times the record's `foot_offset`.
     """
-    figures = stance_figures(recording, Ground(environment), foot_played)
+    figures = stance_figures(recording, Ground(environment, recording), foot_played)
     return {f"played_{name}": value for name, value in figures.items()}
 
 

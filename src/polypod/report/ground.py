@@ -9,38 +9,63 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from polypod.environment.shapes import CYLINDER, SPHERE
 from polypod.environment.table import EnvironmentTable
 from polypod.report.arrays import FloatArray, conjugate_all, rotate_all
+from polypod.report.record import Recording
 
 BoolArray = NDArray[np.bool_]
 
 
 class Ground:
-    """Terrain and obstacles as a walker meets them; world metres."""
+    """Terrain and obstacles as a walker meets them; world metres.
 
-    def __init__(self, environment: EnvironmentTable) -> None:
-        """Read the table; obstacles are where it says."""
+    Where obstacles moved, each place is asked about with its frame [N], a row of the recording or
+    between two; without one they are where the table says.
+    """
+
+    def __init__(self, environment: EnvironmentTable, recording: Recording | None = None) -> None:
+        """Read the table, and from a recording how far [F, O, 3] its obstacles were from there."""
         self.environment = environment
+        self.shift: FloatArray | None = None
+        self.movers = frozenset(int(i) for i in environment.movers)
+        if recording is not None and self.movers:
+            recorded = recording.obstacle_position.shape[1]
+            self.shift = recording.obstacle_position - environment.position[:recorded]
         self.forbidden = frozenset(int(i) for i in np.flatnonzero(environment.forbidden))
 
-    def surface(self, x: FloatArray, z: FloatArray) -> FloatArray:
+    def shift_of(self, index: int, frame: ArrayLike | None) -> FloatArray:
+        """Return how far [N, 3] an obstacle was from where its rows have it, or zero [3]."""
+        if self.shift is None or frame is None or index not in self.movers:
+            return np.zeros(3)
+        place = np.asarray(frame, dtype=np.float64)
+        row = np.minimum(place.astype(np.int64), max(len(self.shift) - 2, 0))
+        share = (place - row)[:, None]
+        after = np.minimum(row + 1, len(self.shift) - 1)
+        shift: FloatArray = (
+            self.shift[row, index] * (1.0 - share) + self.shift[after, index] * share
+        )
+        return shift
+
+    def surface(self, x: FloatArray, z: FloatArray, frame: ArrayLike | None = None) -> FloatArray:
         """Return the height [N] of what stands highest over each place of the plan, m."""
         table = self.environment
         highest = terrain_height(table, x, z)
         for index in range(len(table.kind)):
             least, most = table.bounds[index, :3], table.bounds[index, 3:]
+            shift = np.broadcast_to(self.shift_of(index, frame), (len(x), 3))
+            own_x, own_z = x - shift[:, 0], z - shift[:, 2]
             near = np.flatnonzero(
-                (x >= least[0]) & (x <= most[0]) & (z >= least[2]) & (z <= most[2])
+                (own_x >= least[0]) & (own_x <= most[0]) & (own_z >= least[2]) & (own_z <= most[2])
             )
             if near.size:
-                top = self._top(index, x[near], z[near])
+                top = self._top(index, own_x[near], own_z[near]) + shift[near, 1]
                 highest[near] = np.maximum(highest[near], top)
         return highest
 
-    def penetration(self, points: FloatArray) -> FloatArray:
+    def penetration(self, points: FloatArray, frame: ArrayLike | None = None) -> FloatArray:
         """Return how deep [N] each point [N, 3] is inside the terrain or an obstacle, m.
 
         In the terrain depth is counted straight up, in an obstacle to its nearest face. 0: outside.
@@ -49,18 +74,20 @@ class Ground:
         deepest = np.maximum(terrain_height(table, points[:, 0], points[:, 2]) - points[:, 1], 0.0)
         for index in range(len(table.kind)):
             bounds = table.bounds[index]
-            near = np.flatnonzero(((points >= bounds[:3]) & (points <= bounds[3:])).all(axis=1))
+            own = points - self.shift_of(index, frame)
+            near = np.flatnonzero(((own >= bounds[:3]) & (own <= bounds[3:])).all(axis=1))
             if near.size:
-                deepest[near] = np.maximum(deepest[near], self._depth(index, points[near]))
+                deepest[near] = np.maximum(deepest[near], self._depth(index, own[near]))
         return deepest
 
-    def over_forbidden(self, points: FloatArray) -> BoolArray:
+    def over_forbidden(self, points: FloatArray, frame: ArrayLike | None = None) -> BoolArray:
         """Return which points [N, 3] lie over the plan outline of a forbidden obstacle."""
         table = self.environment
         over = np.zeros(len(points), np.bool_)
         for index in self.forbidden:
             side = table.footprint_side[index, : table.footprint_count[index]]
-            beyond = points[:, [0, 2]] @ side[:, :2].T - side[:, 2]
+            own = points - self.shift_of(index, frame)
+            beyond = own[:, [0, 2]] @ side[:, :2].T - side[:, 2]
             over |= (beyond < 0.0).all(axis=1)
         return over
 

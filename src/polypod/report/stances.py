@@ -46,11 +46,13 @@ def stance_figures(
     stance = recording.foot_stance
     leg_length = np.broadcast_to(recording.morphology.legs.length, stance.shape)[stance]
     standing = place[stance]
-    height = standing[:, 1] - ground.surface(standing[:, 0], standing[:, 2])
-    inside = ground.penetration(standing)
+    frame = np.nonzero(stance)[0]
+    height = standing[:, 1] - ground.surface(standing[:, 0], standing[:, 2], frame)
+    inside = ground.penetration(standing, frame)
     residual = np.linalg.norm(standing - recording.foot_target[stance], axis=1)
     both = stance[1:] & stance[:-1]
-    travel = np.linalg.norm((place[1:] - place[:-1])[both][:, [0, 2]], axis=1)
+    own = place - _carried(recording)
+    travel = np.linalg.norm((own[1:] - own[:-1])[both][:, [0, 2]], axis=1)
     slips = slip_per_stance(recording, place)
     return {
         "stance_count": len(slips),
@@ -62,6 +64,14 @@ def stance_figures(
         "stance_inside_of_leg": _largest(inside / leg_length),
         "stance_residual_of_leg": _largest(residual / leg_length),
     }
+
+
+def _carried(recording: Recording) -> FloatArray:
+    """Return where what each foot stands on is [F, K, 3], m; zero for the ground."""
+    place = np.zeros_like(recording.foot_position)
+    frame, foot = np.nonzero(recording.foot_stance & (recording.foot_support >= 0))
+    place[frame, foot] = recording.obstacle_position[frame, recording.foot_support[frame, foot]]
+    return place
 
 
 def _largest(values: FloatArray) -> float | None:

@@ -23,7 +23,7 @@ def swing_figures(recording: Recording, ground: Ground) -> dict[str, object]:
         return {"swing_count": 0}
     leg_length = np.broadcast_to(recording.morphology.legs.length, swing.shape)[swing]
     place = recording.foot_position[swing]
-    inside = ground.penetration(place) / leg_length
+    inside = ground.penetration(place, np.nonzero(swing)[0]) / leg_length
     residual = np.linalg.norm(place - recording.foot_target[swing], axis=1) / leg_length
     return {
         "swing_inside_of_leg": float(inside.max()),
@@ -74,11 +74,14 @@ def forbidden_figures(recording: Recording, ground: Ground) -> dict[str, object]
         places = recording.foot_position[:, foot]
         for start, stop in runs_of(recording.foot_stance[:, foot]):
             support = int(recording.foot_support[start, foot])
-            on = support in ground.forbidden or ground.over_forbidden(places[start:stop]).any()
-            stances += int(on)
+            frame = np.arange(start, stop)
+            over = ground.over_forbidden(places[start:stop], frame).any()
+            stances += int(support in ground.forbidden or over)
         for start, stop in runs_of(~recording.foot_stance[:, foot]):
-            path = _chords(places[max(start - 1, 0) : stop + 1])
-            crossings += int(ground.over_forbidden(path).any())
+            first = max(start - 1, 0)
+            path = _chords(places[first : stop + 1])
+            moments = first + np.arange(len(path)) / CHORD_PLACES
+            crossings += int(ground.over_forbidden(path, moments).any())
     return {"forbidden_stances": stances, "forbidden_crossings": crossings}
 
 

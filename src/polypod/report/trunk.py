@@ -67,7 +67,8 @@ def belly_clearance(recording: Recording, ground: Ground) -> FloatArray:
         recording.body_rotation[:, None], belly_body
     )
     points = belly.reshape(-1, 3)
-    gap = points[:, 1] - ground.surface(points[:, 0], points[:, 2])
+    frame = np.repeat(np.arange(len(recording.time)), belly_body.shape[0])
+    gap = points[:, 1] - ground.surface(points[:, 0], points[:, 2], frame)
     least: FloatArray = gap.reshape(len(recording.time), -1).min(axis=1)
     return least
 
