@@ -105,7 +105,7 @@ def settle_creatures(
         before = load_vec3(state.position[c])
         settle_body(c, seconds, pose, height, state, tables, env, scratch)
         note_pose(c, seconds, pose, before, state, command, tables, settings)
-        advance_swings(c, seconds, state, scratch, env)
+        advance_swings(c, seconds, state, tables, scratch, env)
 
 
 @kernel

@@ -6,7 +6,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.swing import drift, foot_along, swing_time_left
-from polypod.environment.table import mover_depth
+from polypod.environment.table import mover_depth, surface
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Ways and standing feet are looked at in so many moments ahead.
@@ -16,6 +16,8 @@ FORESIGHT = 0.8
 # Where it is looked at, leg lengths above the sole, and the room that it keeps.
 ON_FOOT = 0.03
 ROOM = 0.03
+# A footprint has gone that is so far from where it was foreseen, leg lengths.
+GONE = 1e-3
 
 
 @kernel
@@ -54,9 +56,13 @@ def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
 
 @kernel
 def way_blocked(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
-    """Return whether something will move into a swinging foot's way."""
+    """Return whether something will move into a swinging foot's way, or away under its target."""
     now = state.swing_progress[c, k]
     left = swing_time_left(c, k, state)
+    target = load_vec3(state.foot_target[c, k])
+    height, _ = surface(env, target.x, target.z)
+    if abs(height - target.y) > GONE * tables.legs.length[k] and state.landing_support[c, k] >= 0:
+        return True
     for j in range(1, MOMENTS + 1):
         share = j / MOMENTS
         sole, _ = foot_along(c, k, now + (1.0 - now) * share, state, env)

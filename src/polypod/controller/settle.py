@@ -25,6 +25,10 @@ SHORTER = 4
 # stances would look like a slip.
 FRAMES_AIRBORNE = 1.001
 NEARLY_DOWN = 0.95
+# A foot has landed where it is so near to the surface, leg lengths.
+LANDED = 1e-3
+# So many moments of a frame are looked at for what comes without warning.
+PUSHES = 4
 
 
 @kernel
@@ -35,6 +39,23 @@ def chord_is_free(before: Vec3, after: Vec3, env: Any) -> bool:
         if is_forbidden(env, place.x, place.z, 0.0):
             return False
     return True
+
+
+@kernel
+def pushed_aside(
+    c: int, k: int, dt: float, before: Vec3, sole: Vec3, state: Any, env: Any
+) -> Vec3:  # fmt: skip
+    """Return where a foot gets in a frame in which something comes without warning, world.
+
+    What is played between two frames is a straight line: it is cleared at four moments.
+    """
+    own = state.landing_support[c, k]
+    for j in range(1, PUSHES + 1):
+        share = j / PUSHES
+        place = mix(before, sole, share)
+        free = clear_of_movers(env, place, (share - 1.0) * dt, own)
+        sole = sole + (free - place) * (1.0 / share)
+    return sole
 
 
 @kernel
@@ -61,11 +82,7 @@ def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
                 progress = 0.5 * (now + progress)
                 sole, turn = foot_along(c, k, progress, state, env)
             if env.mover_count > 0:
-                # What came without warning pushes the foot aside, half way through the frame too.
-                own = state.landing_support[c, k]
-                middle = mix(before, sole, 0.5)
-                sole = sole + (clear_of_movers(env, middle, -0.5 * dt, own) - middle) * 2.0
-                sole = clear_of_movers(env, sole, 0.0, own)
+                sole = pushed_aside(c, k, dt, before, sole, state, env)
             scratch.progress[k] = progress
         store_vec3(scratch.sole[k], sole)
         store_quat(scratch.turn[k], turn)
@@ -137,21 +154,31 @@ def settle_body(
 
 
 @kernel
-def advance_swings(c: int, dt: float, state: Any, scratch: Any, env: Any) -> None:
+def advance_swings(
+    c: int, dt: float, state: Any, tables: Any, scratch: Any, env: Any
+) -> None:  # fmt: skip
     """Carry the swinging feet as far as `settle_body` found, and land those that arrived."""
     for k in range(state.swinging.shape[1]):
         if not state.swinging[c, k]:
             continue
         state.airborne[c, k] += dt
+        sole = load_vec3(scratch.sole[k])
         if scratch.held[k]:
             state.waiting[c, k] += dt
+            if env.mover_count > 0:
+                here = load_vec3(state.foot[c, k])
+                store_vec3(state.foot[c, k], pushed_aside(c, k, dt, here, here, state, env))
             continue
         state.waiting[c, k] = 0.0
         state.swing_progress[c, k] = scratch.progress[k]
-        store_vec3(state.foot[c, k], load_vec3(scratch.sole[k]))
+        store_vec3(state.foot[c, k], sole)
         store_quat(state.foot_rotation[c, k], load_quat(scratch.turn[k]))
         if scratch.progress[k] >= 1.0:
+            height, support = surface(env, sole.x, sole.z)
+            if env.mover_count > 0 and abs(height - sole.y) > LANDED * tables.leg_length:
+                # Not there any more: the foot is sent elsewhere in the next step.
+                state.swing_progress[c, k] = NEARLY_DOWN
+                continue
             state.swinging[c, k] = False
             state.stood[c, k] = 0.0
-            _, support = surface(env, state.foot[c, k, 0], state.foot[c, k, 2])
             state.foot_support[c, k] = support
