@@ -3,34 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from polypod.environment.polygons import triangulate
 from polypod.errors import SceneError
 
 FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
 
 MOST_BYTES = 1 << 30
+MOST_CORNERS = 4096  # of a face
 
 
 class ObjReader:
-    """Reads one file line by line: vertices first and last, faces turned into triangles."""
+    """Reads one file line by line: first all vertices and faces, then the faces' triangles."""
 
     def __init__(self, path: Path):
+        """Prepare to read a file; `read` reads it."""
         self.path = path
-        self.vertices: list[tuple[float, float, float]] = []
-        self.triangles: list[tuple[int, int, int]] = []
-        self.lines: list[int] = []  # of each triangle, for messages
+        self._vertices: list[tuple[float, float, float]] = []
+        # By their number of corners: each face's vertices, from 0, and its line.
+        self._faces: dict[int, list[list[int]]] = {}
+        self._lines: dict[int, list[int]] = {}
 
     def read(self) -> FloatArray:
         """Return triangles [T, 3 corners, x y z] in the file's units.
-
-        Faces of more than three corners are taken for convex.
 
         Raises:
             SceneError: the file cannot be read, a vertex is no three numbers, or a face names a
@@ -42,17 +42,24 @@ class ObjReader:
                 self._read_vertex(number, words[1:])
             elif words[:1] == ["f"]:
                 self._read_face(number, words[1:])
-        if not self.triangles:
+        if not self._faces:
             raise SceneError(f"{self.path}: the mesh has no face (a line of f and vertex numbers)")
-        triangles = np.array(self.triangles, dtype=np.int64)
-        beyond = np.flatnonzero(np.any(triangles >= len(self.vertices), axis=1))
-        if len(beyond):
-            self._fail(
-                self.lines[int(beyond[0])],
-                f"the face names vertex {int(triangles[beyond[0]].max()) + 1}, but there are "
-                f"{len(self.vertices)}",
-            )
-        return np.array(self.vertices, dtype=np.float64)[triangles]
+        vertices = np.array(self._vertices, dtype=np.float64).reshape(-1, 3)
+        found = []
+        for corner_count, listed in self._faces.items():
+            faces = np.array(listed, dtype=np.int64)
+            beyond = np.flatnonzero(np.any(faces >= len(vertices), axis=1))
+            if len(beyond):
+                self._fail(
+                    self._lines[corner_count][int(beyond[0])],
+                    f"the face names vertex {int(faces[beyond[0]].max()) + 1}, but there are "
+                    f"{len(vertices)}",
+                )
+            corners = vertices[faces]
+            with np.errstate(all="ignore"):  # who asked for it refuses what is no number
+                triangles = triangulate(corners).reshape(len(faces), -1, 1)
+            found.append(np.take_along_axis(corners, triangles, axis=1).reshape(-1, 3, 3))
+        return np.concatenate(found)
 
     def _fail(self, line: int, text: str) -> NoReturn:
         raise SceneError(f"{self.path}: line {line}: {text}")
@@ -63,7 +70,7 @@ class ObjReader:
             x, y, z = (float(word) for word in words[:3])
         except ValueError:
             self._fail(line, "a vertex must be three numbers, as in v 0.0 1.0 2.0")
-        self.vertices.append((x, y, z))
+        self._vertices.append((x, y, z))
 
     def _read_face(self, line: int, words: list[str]) -> None:
         try:
@@ -71,21 +78,16 @@ class ObjReader:
             named = [int(word.split("/", 1)[0]) for word in words]
         except ValueError:
             self._fail(line, "a face must be whole numbers of vertices, as in f 1 2 3")
-        if len(named) < 3:
-            self._fail(line, f"a face must have at least 3 vertices, not {len(named)}")
+        if not 3 <= len(named) <= MOST_CORNERS:
+            self._fail(line, f"a face must have 3 to {MOST_CORNERS} vertices, not {len(named)}")
         # Numbers count from 1, or from -1 back from the vertex read last.
-        count = len(self.vertices)
+        count = len(self._vertices)
+        for index in named:
+            if index == 0 or not -count <= index <= MOST_BYTES:
+                self._fail(line, f"the face names vertex {index}, but there are {count} so far")
         corners = [index - 1 if index > 0 else count + index for index in named]
-        if 0 in named or min(corners) < 0 or max(named) > MOST_BYTES:
-            worst = next(i for i, c in zip(named, corners, strict=True) if self._absurd(i, c))
-            self._fail(line, f"the face names vertex {worst}, but there are {count} so far")
-        for second, third in pairwise(corners[1:]):
-            self.triangles.append((corners[0], second, third))
-            self.lines.append(line)
-
-    @staticmethod
-    def _absurd(index: int, corner: int) -> bool:
-        return index == 0 or corner < 0 or index > MOST_BYTES
+        self._faces.setdefault(len(named), []).append(corners)
+        self._lines.setdefault(len(named), []).append(line)
 
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:

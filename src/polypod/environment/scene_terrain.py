@@ -64,13 +64,12 @@ def _generated(place: str, values: dict[str, Any], more_seed: int) -> Terrain:
 
 
 def _heightmap(place: str, values: dict[str, Any], folder: Path) -> Terrain:
-    named = SceneTable(place, values, values).text("heightmap")
-    file = folder / named
+    file = folder / SceneTable(place, values, values).text("heightmap")
     suffix = file.suffix.lower()
     if suffix not in HEIGHTMAPS:
         raise SceneError(
-            f"{place} has heightmap = {shown(file.name)}; it must be one of {choices(HEIGHTMAPS)}"
-            f" (a mesh of {choices(MESHES)} is mesh = {shown(file.name)})"
+            f"{place} has heightmap = {shown(file.name)}; it must be one of {choices(HEIGHTMAPS)}; "
+            f"files of {choices(MESHES)} are named by mesh"
         )
     keys = ("heightmap", *HEIGHTMAPS[suffix], "origin", "water")
     table = SceneTable(f"{place} of a {suffix}", values, keys)
