@@ -14,7 +14,7 @@ from polypod.errors import SceneError
 
 FloatArray = NDArray[np.float64]
 
-MOST_BYTES = 1 << 30
+MOST_BYTES = 1 << 28  # read into some times as much memory
 MOST_CORNERS = 4096  # of a face
 
 
@@ -92,18 +92,18 @@ class ObjReader:
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:
     """Yield each line's number and text, with a backslash at its end joining it to the next."""
+    joined = ""
     try:
         if path.stat().st_size > MOST_BYTES:
             raise SceneError(f"{path}: the mesh is too large; the most is {MOST_BYTES} bytes")
         # Names in a file may be in any encoding; they do not matter here.
-        text = path.read_bytes().decode("utf-8", "replace")
+        with path.open(encoding="utf-8", errors="replace") as lines:
+            for number, line in enumerate(lines, 1):
+                words = line.split("#", 1)[0].rstrip()
+                if words.endswith("\\"):
+                    joined += words[:-1] + " "
+                    continue
+                yield number, joined + words
+                joined = ""
     except (OSError, ValueError) as error:
         raise SceneError(f"{path}: no mesh can be read ({error})") from None
-    joined = ""
-    for number, line in enumerate(text.split("\n"), 1):
-        line = line.split("#", 1)[0].rstrip()
-        if line.endswith("\\"):
-            joined += line[:-1] + " "
-            continue
-        yield number, joined + line
-        joined = ""

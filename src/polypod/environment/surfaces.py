@@ -25,7 +25,7 @@ IntArray = NDArray[np.int64]
 MESHES = (".obj", ".glb", ".gltf")
 CELLS_A_SIDE = 1024  # of the longer side, where no cell is asked for
 AT_ONCE = 1 << 18  # rows or samples in one array
-MOST_COVERED = 2_000_000_000  # samples, summed over the triangles: some minutes
+MOST_COVERED = 2_000_000_000  # rows and samples, summed over the triangles: some minutes
 ROUNDING = 1e-9  # cells: a sample on the edge between two triangles belongs to both
 SLIVER = 1e-12  # of the square of the longest side: less area in plan is none
 
@@ -79,6 +79,34 @@ def highest_surface(place: str, triangles: FloatArray, cell: float | None) -> He
     Raises:
         SceneError: no triangle lies over a sample, or there are too many samples.
     """
+    least, cell, rows, columns = _lattice(place, triangles, cell)
+    corners = (triangles - least) / cell
+    corners[..., 1] = triangles[..., 1]
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    twice_area = np.abs(first[:, 0] * second[:, 2] - first[:, 2] * second[:, 0])
+    spread = np.ptp(corners[..., [0, 2]], axis=1)
+    work = 0.5 * float(twice_area.sum()) + float(spread[:, 1].sum())
+    if rows * columns > MOST_SAMPLES or work > MOST_COVERED:
+        raise SceneError(
+            f"{place}: {rows} x {columns} samples {cell:g} m apart are too many for "
+            f"{len(triangles)} triangles; choose a larger cell"
+        )
+    heights = np.full(rows * columns, -np.inf)
+    _raise_to(heights, corners[twice_area > SLIVER * spread.max(axis=1) ** 2], rows, columns)
+    unknown = np.isneginf(heights).reshape(rows, columns)
+    if bool(unknown.all()):
+        raise SceneError(
+            f"{place}: no triangle of the mesh lies over a sample; choose a cell smaller than "
+            f"{cell:g}"
+        )
+    origin = (float(least[0]), float(least[2]))
+    return filled(heights.reshape(rows, columns), cell, origin, unknown)
+
+
+def _lattice(
+    place: str, triangles: FloatArray, cell: float | None
+) -> tuple[FloatArray, float, int, int]:
+    """Return the least x, y, z of triangles, the cell, and rows and columns of samples."""
     least = triangles.reshape(-1, 3).min(axis=0, initial=np.inf)
     greatest = triangles.reshape(-1, 3).max(axis=0, initial=-np.inf)
     extent = (greatest - least)[[0, 2]]
@@ -88,26 +116,7 @@ def highest_surface(place: str, triangles: FloatArray, cell: float | None) -> He
     if not SMALLEST <= cell <= LARGEST:
         raise SceneError(f"{place}: cell = {cell:g} must be from {SMALLEST:g} to {LARGEST:g}")
     columns, rows = (math.floor(side / cell + ROUNDING) + 1 for side in extent.tolist())
-    corners = (triangles - least) / cell
-    corners[..., 1] = triangles[..., 1]
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    twice_area = np.abs(first[:, 0] * second[:, 2] - first[:, 2] * second[:, 0])
-    if rows * columns > MOST_SAMPLES or 0.5 * float(twice_area.sum()) > MOST_COVERED:
-        raise SceneError(
-            f"{place}: {rows} x {columns} samples {cell:g} m apart are too many for "
-            f"{len(triangles)} triangles; choose a larger cell"
-        )
-    reach = np.ptp(corners[..., [0, 2]], axis=1).max(axis=1)
-    heights = np.full(rows * columns, -np.inf)
-    _raise_to(heights, corners[twice_area > SLIVER * reach**2], rows, columns)
-    unknown = np.isneginf(heights).reshape(rows, columns)
-    if bool(unknown.all()):
-        raise SceneError(
-            f"{place}: no triangle of the mesh lies over a sample; choose a cell smaller than "
-            f"{cell:g}"
-        )
-    origin = (float(least[0]), float(least[2]))
-    return filled(heights.reshape(rows, columns), cell, origin, unknown)
+    return least, cell, rows, columns
 
 
 def _raise_to(heights: FloatArray, corners: FloatArray, rows: int, columns: int) -> None:
@@ -140,9 +149,8 @@ def _cut(corners: FloatArray, row: IntArray) -> tuple[FloatArray, FloatArray]:
     find the very same place.
     """
     low, middle, high = corners[:, 0], corners[:, 1], corners[:, 2]
-    line = np.clip(
-        row.astype(np.float64), low[:, 2], high[:, 2]
-    )  # it may miss the triangle by a rounding
+    # A row may miss its triangle by a rounding.
+    line = np.clip(row.astype(np.float64), low[:, 2], high[:, 2])
     before = (line < middle[:, 2])[:, None]
     long_side = _along(low, high, line)
     short_side = _along(np.where(before, low, middle), np.where(before, middle, high), line)
