@@ -13,7 +13,7 @@ from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
 from polypod.controller.lift import any_off_place
-from polypod.controller.moving import carry_feet
+from polypod.controller.moving import any_threatened, carry_feet
 from polypod.controller.plan import plan_feet
 from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.steering import load_pose, move_body, note_pose, store_pose
@@ -63,6 +63,7 @@ def drive_creatures(
         shift_spacing(c, seconds, state, command, tables, settings)
         # Tempo, transition, needle.
         restless = any_off_place(c, state, tables, settings)
+        restless = restless or (env.mover_count > 0 and any_threatened(c, state, tables, env))
         state.turn[c] = advance_gait(
             c, seconds, restless, state, command, tables, settings, scratch
         )

@@ -111,6 +111,7 @@ def test_a_grey_picture_is_a_terrain(tmp_path: Path, bits: int) -> None:
 
 
 BOX = '[[obstacle]]\nshape = "box"\nposition = [0, 0, 0]\n'
+RAW = '[terrain]\nheightmap = "a.raw"\ncell = 1\nformat = "float32"\n'
 CREATURE = '[[creature]]\nrig = "spider"\n'
 SCATTER = "[[scatter]]\ncount = 1\narea = [0, 0, 1, 1]\n"
 
@@ -124,8 +125,26 @@ SCATTER = "[[scatter]]\ncount = 1\narea = [0, 0, 1, 1]\n"
         ("[terrain]\ncell = 1", ["needs a heightmap"]),
         ("terrain = 3", ["must be a table"]),
         ('[terrain]\nheightmap = "none.npy"\ncell = 1', ["none.npy", "can be read"]),
-        ('[terrain]\nheightmap = "a.tif"\ncell = 1', ["GeoTIFF", "not supported in this version"]),
-        ('[terrain]\nheightmap = "a.jpg"\ncell = 1', [".npy or .png"]),
+        (
+            '[terrain]\nheightmap = "a.tif"\ncell = 1',
+            ["of a .tif", "no key 'cell'", "origin, water"],
+        ),
+        ('[terrain]\nheightmap = "a.jpg"\ncell = 1', [".npy, .png, .raw, .tif", ".obj"]),
+        ('[terrain]\nheightmap = "a.obj"\ncell = 1', ["a.obj", "named by mesh"]),
+        ('[terrain]\nheightmap = "none.tif"', ["none.tif", "GeoTIFF"]),
+        ('[terrain]\nheightmap = "a.npy"\ncell = 1\nrelief = 1', ["no key 'relief'"]),
+        ('[terrain]\nheightmap = "a.npy"\ngenerator = "hills"', ["only one"]),
+        ('[terrain]\nheightmap = "a.raw"\ncell = 1', ["needs format", "uint16-big"]),
+        ('[terrain]\nheightmap = "a.raw"\ncell = 1\nformat = "u8"', ["'u8'", "uint8"]),
+        ('[terrain]\nheightmap = "a.raw"\ncell = 1\nformat = "uint8"', ["needs relief"]),
+        (RAW + "rows = 0", ["rows = 0", "from 1 to"]),
+        (RAW + "rows = 4", ["a.raw", "6 samples", "4 rows of 1"]),
+        (RAW, ["a.raw", "no square", "rows or columns"]),
+        ('[terrain]\nmesh = "a.stl"', ["mesh = 'a.stl'", ".obj, .glb, .gltf"]),
+        ('[terrain]\nmesh = "none.obj"', ["none.obj", "can be read"]),
+        ('[terrain]\nmesh = "none.glb"', ["none.glb", "cannot be read"]),
+        ('[terrain]\nmesh = "a.obj"\nscale = 0', ["scale = 0"]),
+        ('[terrain]\nmesh = "a.obj"\nrelief = 1', ["of a mesh", "no key 'relief'"]),
         ('[terrain]\nheightmap = "a.npy"\ncell = 0', ["cell = 0", "1e-06"]),
         ('[terrain]\nheightmap = "a.npy"\ncell = nan', ["cell = nan"]),
         ('[terrain]\nheightmap = "a.png"\ncell = 1', ["needs relief"]),
@@ -149,7 +168,12 @@ SCATTER = "[[scatter]]\ncount = 1\narea = [0, 0, 1, 1]\n"
         (BOX + "size = [1, 1, 1]\nyaw = true", ["yaw = true", "a number"]),
         (BOX + "size = [1, 1, 1]\nyaw = 1\nrotation = [0, 0, 0, 1]", ["both"]),
         (BOX + "size = [1, 1, 1]\nrotation = [0, 0, 0, 0.5]", ["length 1"]),
-        (BOX + "size = [1, 1, 1]\nvelocity = [0, 0, 1]", ["not supported in this version"]),
+        (BOX + "size = [1, 1, 1]\nvelocity = [0, 0]", ["velocity", "[x, y, z]"]),
+        (BOX + "size = [1, 1, 1]\nvelocity = [0, 0, 500]", ["number 1", "within 100"]),
+        (BOX + "size = [1, 1, 1]\nvelocity = [0, 0, 1]\npath = [[0, 0, 1]]", ["both"]),
+        (BOX + "size = [1, 1, 1]\npath = [[0, 0, 1]]", ["a speed above 0"]),
+        (BOX + "size = [1, 1, 1]\npath = [[0, 0]]\nspeed = 1", ["path"]),
+        (BOX + "size = [1, 1, 1]\nspeed = 1", ["without a path"]),
         (BOX.replace("box", "mesh") + 'file = "a.obj"', ["not supported in this version"]),
         (BOX.replace("box", "cone"), ["'cone'", "box, cylinder, sphere, hull"]),
         (BOX.replace("box", "sphere") + "size = [1, 1, 2]", ["equal"]),
@@ -178,6 +202,7 @@ def test_one_sentence_names_file_place_and_choices(
     np.save(tmp_path / "nan.npy", np.array([[0.0, np.nan]]))
     np.save(tmp_path / "empty.npy", np.zeros((0, 3)))
     np.save(tmp_path / "text.npy", np.array([["a"]]))
+    (tmp_path / "a.raw").write_bytes(bytes(24))
     (tmp_path / "bad.png").write_bytes(b"\x89PNG\r\n\x1a\n broken")
     Image.fromarray(np.zeros((2, 2, 3), np.uint8)).save(tmp_path / "rgb.png")
     with pytest.raises(SceneError) as caught:
@@ -220,7 +245,21 @@ def toml_value() -> st.SearchStrategy[str]:
         st.sampled_from(["nan", "inf", "1e300", "99999999999999999999", "true", "1979-05-27"]),
     )
     texts = st.sampled_from(
-        ['"box"', '"hills"', '"sphere"', '"hull"', '""', '"a.npy"', '"\\u0000"', '"+z"', "{}"]
+        [
+            '"box"',
+            '"hills"',
+            '"sphere"',
+            '"hull"',
+            '""',
+            '"a.npy"',
+            '"a.raw"',
+            '"a.tif"',
+            '"a.obj"',
+            '"uint8"',
+            '"\\u0000"',
+            '"+z"',
+            "{}",
+        ]
     )
     simple = st.one_of(numbers, texts)
     lists = st.lists(simple, max_size=4).map(lambda v: "[" + ", ".join(v) + "]")
@@ -235,6 +274,11 @@ KEYS = [
     "origin",
     "generator",
     "water",
+    "mesh",
+    "scale",
+    "format",
+    "rows",
+    "columns",
     "seed",
     "rise",
     "shape",

@@ -6,7 +6,8 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.swing import drift, foot_along, swing_time_left
-from polypod.environment.table import mover_depth, surface
+from polypod.environment.movers import clear_of_movers, mover_depth
+from polypod.environment.table import surface
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Ways and standing feet are looked at in so many moments ahead.
@@ -94,17 +95,32 @@ def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
 
 
 @kernel
-def foot_in_the_way(c: int, state: Any, tables: Any, env: Any, scratch: Any) -> int:
-    """Return a standing foot that must step away at once; as many as feet: none.
+def foot_in_the_way(c: int, first: int, state: Any, tables: Any, env: Any) -> int:
+    """Return the first standing foot from `first` on that must step away at once.
 
-    Each is asked once a step: `scratch.held` notes those that were.
+    As many as feet: none.
     """
     count = state.swinging.shape[1]
     if env.mover_count == 0:
         return int(count)
-    for k in range(count):
-        if state.swinging[c, k] or scratch.held[k]:
-            continue
-        if is_threatened(c, k, state, tables, env):
+    for k in range(first, count):
+        if not state.swinging[c, k] and is_threatened(c, k, state, tables, env):
             return int(k)
     return int(count)
+
+
+@kernel
+def any_threatened(c: int, state: Any, tables: Any, env: Any) -> bool:
+    """Return whether any foot must step away, or is on its way."""
+    for k in range(state.swinging.shape[1]):
+        if state.swinging[c, k] or is_threatened(c, k, state, tables, env):
+            return True
+    return False
+
+
+@kernel
+def step_out(c: int, k: int, state: Any, tables: Any, env: Any) -> None:
+    """Put a standing foot beside or on what has been put over it: it has no other way out."""
+    over = load_vec3(state.foot[c, k]) + Vec3(0.0, ON_FOOT * tables.legs.length[k], 0.0)
+    free = clear_of_movers(env, over, 0.0, state.foot_support[c, k])
+    store_vec3(state.foot[c, k], load_vec3(state.foot[c, k]) + (free - over))

@@ -17,7 +17,7 @@ from polypod.controller.lift import (
     wait_for_place,
     way_off,
 )
-from polypod.controller.moving import foot_in_the_way, way_blocked
+from polypod.controller.moving import foot_in_the_way, step_out, way_blocked
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import (
     FASTEST_CATCH_UP,
@@ -57,10 +57,14 @@ def plan_feet(
             take_new_way(c, k, errand.launch, state, scratch)
     landing = note_standing(c, dt, state.turn[c], state, tables, settings, scratch)
     searching = True
+    first = 0
     while searching:
-        k = foot_in_the_way(c, state, tables, env, scratch)
+        k = foot_in_the_way(c, first, state, tables, env)
         in_turn = False
-        if k == state.swinging.shape[1]:
+        if k < state.swinging.shape[1]:
+            first = k + 1
+            step_out(c, k, state, tables, env)
+        else:
             k = next_foot_to_lift(
                 state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
                 state.stood[c], scratch.held, state.least_down[c], settings.late_lift, landing,

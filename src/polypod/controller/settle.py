@@ -9,7 +9,8 @@ from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
-from polypod.environment.table import clear_of_movers, is_forbidden, surface
+from polypod.environment.movers import clear_of_movers
+from polypod.environment.table import is_forbidden, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 

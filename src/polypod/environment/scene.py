@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from polypod.environment.environment import Environment
-from polypod.environment.generators import GENERATORS, generator_keys
 from polypod.environment.obstacles import (
     LARGEST,
     MOST_HULL_POINTS,
@@ -19,18 +17,16 @@ from polypod.environment.obstacles import (
     from_yaw,
     scatter,
 )
-from polypod.environment.scene_values import SceneTable, shown
-from polypod.environment.terrain import Terrain, generated
+from polypod.environment.scene_terrain import LARGEST_SEED, read_terrain
+from polypod.environment.scene_values import SceneTable, shown, within
+from polypod.environment.terrain import Terrain
 from polypod.errors import SceneError, choices
-
-Made = TypeVar("Made")
 
 MOST_THINGS = 100_000  # obstacles, or creatures
 MOST_WAYPOINTS = 10_000
 LARGEST_TURN = 1e4  # rad
 FASTEST = 1e3  # m/s
 LATEST = 1e6  # s
-LARGEST_SEED = 2**62
 # Keys of the format that this version refuses: of meshes.
 LATER = ("file",)
 MOTION = ("velocity", "path", "speed")
@@ -111,7 +107,7 @@ def read_scene(path: str | Path, seed: int = 0) -> Scene:
     top = SceneTable(str(path), values, ("terrain", "obstacle", "scatter", "creature", "push"))
     terrain = Terrain.flat()
     if "terrain" in top:
-        terrain = _terrain(path, top.values["terrain"], seed)
+        terrain = read_terrain(path, top.values["terrain"], seed)
     obstacles = [_obstacle(place, entry) for place, entry in _entries(top, "obstacle")]
     for place, entry in _entries(top, "scatter"):
         obstacles += _scatter(place, entry, terrain, seed)
@@ -132,51 +128,6 @@ def _entries(top: SceneTable, key: str) -> list[tuple[str, Any]]:
             f"{top.place} has [{key}] = {shown(entries)}; write [[{key}]], once for each"
         )
     return [(f"{top.place}: [[{key}]] number {i + 1}", entry) for i, entry in enumerate(entries)]
-
-
-def _within(place: str, make: Callable[[], Made]) -> Made:
-    """Return what `make` makes; an error of it says the place first."""
-    try:
-        return make()
-    except SceneError as error:
-        raise SceneError(f"{place}: {error}") from None
-
-
-def _terrain(path: Path, values: Any, more_seed: int) -> Terrain:
-    place = f"{path}: [terrain]"
-    if isinstance(values, dict) and "generator" in values:
-        generator = values["generator"]
-        if generator not in tuple(GENERATORS):
-            raise SceneError(
-                f"{place} has generator = {shown(generator)}; it is one of {choices(GENERATORS)}"
-            )
-        table = SceneTable(place, values, ("generator", *generator_keys(generator)))
-        keys = {key: value for key, value in table.values.items() if key != "generator"}
-        if "seed" in generator_keys(generator):
-            keys["seed"] = table.whole("seed", 0, 0, LARGEST_SEED) + more_seed
-        return _within(place, lambda: generated(generator, **keys))
-    table = SceneTable(
-        place, values, ("heightmap", "cell", "relief", "origin", "water", "generator")
-    )
-    if "heightmap" not in table:
-        raise SceneError(f"{place} needs a heightmap (a file) or a generator")
-    file = path.parent / table.text("heightmap")
-    cell = table.number("cell", None, SMALLEST, LARGEST)
-    origin = table.numbers("origin", "x z", (0.0, 0.0), -LARGEST, LARGEST)
-    water = path.parent / table.text("water") if "water" in table else None
-    suffix = file.suffix.lower()
-    if suffix in (".tif", ".tiff"):
-        raise SceneError(
-            f"{place}: GeoTIFF heightmaps are not supported in this version; use .npy or .png"
-        )
-    if suffix == ".npy":
-        if "relief" in table:
-            raise SceneError(f"{place} has relief, which is for .png: .npy heights are metres")
-        return _within(place, lambda: Terrain.from_npy(file, cell, origin, water))
-    if suffix == ".png":
-        relief = table.number("relief", None, 0.0, LARGEST)
-        return _within(place, lambda: Terrain.from_png(file, cell, relief, origin, water))
-    raise SceneError(f"{place} has heightmap = {shown(file.name)}; it must be a .npy or .png file")
 
 
 def _obstacle(place: str, values: Any) -> Obstacle:
@@ -229,7 +180,7 @@ def _obstacle(place: str, values: Any) -> Obstacle:
             still = Obstacle(shape, (x, y, z), centre, rotation, forbidden, name)
         return replace(still, **_motion(table))
 
-    return _within(place, make)
+    return within(place, make)
 
 
 def _motion(table: SceneTable) -> dict[str, Any]:
@@ -254,7 +205,7 @@ def _scatter(place: str, values: Any, terrain: Terrain, more_seed: int) -> tuple
     seed = table.whole("seed", 0, 0, LARGEST_SEED) + more_seed
     share = table.number("forbidden_share", 0.0, 0.0, 1.0)
     name = table.text("name", "crate")
-    return _within(place, lambda: scatter(terrain, count, area, size, seed, share, name))
+    return within(place, lambda: scatter(terrain, count, area, size, seed, share, name))
 
 
 def _creature(place: str, values: Any) -> CreatureSpec:

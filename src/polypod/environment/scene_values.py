@@ -9,6 +9,7 @@ from typing import Any, NoReturn, TypeVar
 from polypod.errors import SceneError, choices
 
 Value = TypeVar("Value")
+Made = TypeVar("Made")
 
 ANY_NUMBER = 1e9
 
@@ -120,6 +121,14 @@ class SceneTable:
             return tuple(value)
 
         return self._read(key, (), "a list of texts", read)
+
+
+def within(place: str, make: Callable[[], Made]) -> Made:
+    """Return what `make` makes; an error of it says the place first."""
+    try:
+        return make()
+    except SceneError as error:
+        raise SceneError(f"{place}: {error}") from None
 
 
 def as_number(value: Any, least: float, greatest: float) -> float | None:

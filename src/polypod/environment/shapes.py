@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
 from polypod.math.quat import load_quat, rotate, unrotate
-from polypod.math.vec3 import Vec3, dot, load_vec3, normalized
+from polypod.math.vec3 import Vec3, dot, length, load_vec3, normalized
 
 if TYPE_CHECKING:
     from polypod.environment.table import EnvironmentTable
@@ -23,6 +23,8 @@ CYLINDER = 2
 VERTICAL = 1e-9
 # How far outside a face a point may be by rounding and still be on it, in sizes of the obstacle.
 ON_FACE = 1e-12
+# A face whose normal sinks more than this is one from below.
+DOWNWARD = -0.5
 
 
 @kernel
@@ -159,7 +161,10 @@ def depth_inside(env: EnvironmentTable, o: int, point: Vec3) -> float:
 
 @kernel
 def way_out(env: EnvironmentTable, o: int, point: Vec3) -> Vec3:
-    """Return the shortest move that brings a point in obstacle `o` to its surface; 0 outside."""
+    """Return the shortest move, but down, that brings a point in `o` to its surface; 0 outside.
+
+    What stands on the ground has no way out below.
+    """
     depth = depth_inside(env, o, point)
     if depth <= 0.0:
         return Vec3(0.0, 0.0, 0.0)
@@ -169,20 +174,28 @@ def way_out(env: EnvironmentTable, o: int, point: Vec3) -> Vec3:
         for p in range(env.plane_count[o]):
             normal = load_vec3(env.planes[o, p])
             room = env.planes[o, p, 3] - dot(normal, point)
-            if room < nearest:
+            if room < nearest and normal.y > DOWNWARD:
                 nearest = room
                 best = p
-        return load_vec3(env.planes[o, best]) * depth
+        return load_vec3(env.planes[o, best]) * nearest
     out = point - load_vec3(env.position[o])
     if env.kind[o] == SPHERE:
+        if out.y < 0.0:
+            # Straight aside, to where the sphere is no wider than at this height.
+            wide = math.sqrt(max(env.half_size[o, 0] ** 2 - out.y * out.y, 0.0))
+            flat = Vec3(out.x, 0.0, out.z)
+            return normalized(flat, Vec3(1.0, 0.0, 0.0)) * (wide - length(flat))
         return normalized(out, Vec3(0.0, 1.0, 0.0)) * depth
     turn = load_quat(env.rotation[o])
     local = unrotate(turn, out)
-    side = env.half_size[o, 0] - math.hypot(local.x, local.z)
-    if side <= depth:
-        flat = normalized(Vec3(local.x, 0.0, local.z), Vec3(1.0, 0.0, 0.0))
-        return rotate(turn, flat * depth)
-    return rotate(turn, Vec3(0.0, math.copysign(depth, local.y), 0.0))
+    across = Vec3(local.x, 0.0, local.z)
+    aside = rotate(turn, normalized(across, Vec3(1.0, 0.0, 0.0)))
+    cap = rotate(turn, Vec3(0.0, math.copysign(1.0, local.y), 0.0))
+    side = env.half_size[o, 0] - length(across)
+    end = env.half_size[o, 1] - abs(local.y)
+    if cap.y <= DOWNWARD or (side <= end and aside.y > DOWNWARD):
+        return aside * side
+    return cap * end
 
 
 @kernel

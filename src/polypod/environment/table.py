@@ -19,7 +19,6 @@ from polypod.environment.shapes import (
     depth_inside,
     plan_distance,
     top_normal_of,
-    way_out,
 )
 from polypod.math.vec3 import Vec3
 
@@ -251,35 +250,6 @@ def is_wet(env: EnvironmentTable, x: float, z: float) -> bool:
     column = min(max(column, 0.0), columns - 1.0)
     row = min(max(row, 0.0), rows - 1.0)
     return bool(env.water[int(row), int(column)])
-
-
-@kernel
-def mover_depth(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int) -> float:
-    """Return how deep a point will be inside anything that moves but `own`, `ahead` s from now; m.
-
-    Outside it is below zero and its size at most the distance; minus infinity where nothing moves.
-    """
-    deepest = -math.inf
-    for i in range(env.mover_count):
-        o = env.movers[i]
-        if o != own:
-            depth = depth_inside(env, o, point_world - shift_of(env, o, ahead))
-            deepest = max(deepest, depth)
-    return deepest
-
-
-@kernel
-def clear_of_movers(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int) -> Vec3:
-    """Return a point, or the place by it that nothing that moves, but `own`, takes up.
-
-    `ahead` s from now.
-    """
-    for i in range(env.mover_count):
-        o = env.movers[i]
-        if o == own:
-            continue
-        point_world = point_world + way_out(env, o, point_world - shift_of(env, o, ahead))
-    return point_world
 
 
 @kernel

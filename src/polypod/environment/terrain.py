@@ -15,18 +15,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
-from polypod.environment import generators
+from polypod.environment import generators, geotiff, heightmaps, surfaces
+from polypod.environment.heightmaps import MOST_SAMPLES, BoolArray, FloatArray
 from polypod.environment.obstacles import LARGEST, Obstacle
 from polypod.errors import SceneError
-
-FloatArray = NDArray[np.float64]
-BoolArray = NDArray[np.bool_]
-
-MOST_SAMPLES = 64_000_000  # 512 MB of heights
-# Grey modes of pictures and their white.
-PICTURES = {"1": 1.0, "L": 255.0, "I;16": 65535.0, "I;16B": 65535.0, "I": 65535.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,14 +93,7 @@ class Terrain:
         water: str | Path | None = None,
     ) -> Terrain:
         """Return the terrain whose heights in metres are a two-dimensional .npy file."""
-        try:
-            # Mapped, so that a header that promises too much costs no memory.
-            heights = np.load(path, mmap_mode="r", allow_pickle=False)
-        except Exception as error:  # what a broken file raises is not written down anywhere
-            raise SceneError(f"{path}: no .npy heightmap can be read ({error})") from None
-        if not isinstance(heights, np.ndarray) or heights.dtype.kind not in "fiu":
-            raise SceneError(f"{path}: a heightmap must be an array of real numbers")
-        return _placed(path, heights, cell, origin, water)
+        return _placed(path, heightmaps.read_npy(path), cell, origin, water)
 
     @classmethod
     def from_png(
@@ -122,9 +108,56 @@ class Terrain:
 
         The picture's first row is the one of least z.
         """
-        if not 0.0 <= relief <= LARGEST:
-            raise SceneError(f"{path}: relief = {relief:g} must be metres from 0 to {LARGEST:g}")
-        return _placed(path, _read_grey(path) * relief, cell, origin, water)
+        relief = heightmaps.judged_relief(path, relief)
+        return _placed(path, heightmaps.read_grey(path) * relief, cell, origin, water)
+
+    @classmethod
+    def from_raw(
+        cls,
+        path: str | Path,
+        format: str,
+        cell: float,
+        relief: float | None = None,
+        rows: int | None = None,
+        columns: int | None = None,
+        origin: Sequence[float] = (0.0, 0.0),
+        water: str | Path | None = None,
+    ) -> Terrain:
+        """Return the terrain of a file of bare samples: see `heightmaps.read_raw`."""
+        heights = heightmaps.read_raw(path, format, relief, rows, columns)
+        return _placed(path, heights, cell, origin, water)
+
+    @classmethod
+    def from_geotiff(
+        cls,
+        path: str | Path,
+        origin: Sequence[float] = (0.0, 0.0),
+        water: str | Path | None = None,
+    ) -> Terrain:
+        """Return the terrain of a GeoTIFF, whose pixels have their own size in metres.
+
+        Samples without data lie at the lowest height, and no foot may stand there: they count as
+        water. See `geotiff.read_geotiff`; it needs tifffile.
+        """
+        heights, cell, _, unknown = geotiff.read_geotiff(path)
+        return _placed(path, heights, cell, origin, water, unknown)
+
+    @classmethod
+    def from_mesh(
+        cls,
+        path: str | Path,
+        cell: float | None = None,
+        scale: float = 1.0,
+        origin: Sequence[float] | None = None,
+        water: str | Path | None = None,
+    ) -> Terrain:
+        """Return the highest surface of an .obj, .glb or .gltf, y up: see `surfaces.read_mesh`.
+
+        Without an origin the mesh stays where its file has it; else its least x and z are there.
+        Samples under no triangle lie at the lowest height, and no foot may stand there.
+        """
+        heights, cell, place, unknown = surfaces.read_mesh(path, cell, scale)
+        return _placed(path, heights, cell, place if origin is None else origin, water, unknown)
 
     @classmethod
     def hills(cls, seed: int = 0, **keys: float) -> Terrain:
@@ -226,25 +259,15 @@ def _placed(
     cell: float,
     origin: Sequence[float],
     water: str | Path | None,
+    unknown: BoolArray | None = None,
 ) -> Terrain:
-    mask = None if water is None else _read_grey(water) > 0.5
+    """Return the terrain of a file; no foot may stand on water or where heights are unknown."""
+    mask = None if water is None else heightmaps.read_grey(water) > 0.5
+    if unknown is not None and mask is not None and mask.shape == unknown.shape:
+        mask = mask | unknown
+    elif unknown is not None and mask is None and bool(unknown.any()):
+        mask = unknown
     try:
         return Terrain(heights, cell, tuple(float(o) for o in origin), mask)  # type: ignore[arg-type]
     except SceneError as error:
         raise SceneError(f"{path}: {error}") from None
-
-
-def _read_grey(path: str | Path) -> FloatArray:
-    """Return a grey picture's values [rows, columns] from 0 (black) to 1 (white)."""
-    try:
-        with Image.open(path) as picture:
-            mode, pixels = picture.mode, picture.size[0] * picture.size[1]
-            values = np.asarray(picture, dtype=np.float64) if mode in PICTURES else None
-    except Exception as error:  # what a broken file raises is not written down anywhere
-        raise SceneError(f"{path}: no picture can be read ({error})") from None
-    if values is None or pixels > MOST_SAMPLES:
-        raise SceneError(
-            f"{path}: the picture has mode {mode} and {pixels} pixels; "
-            f"it must be grey, of 8 or 16 bits, with at most {MOST_SAMPLES} pixels"
-        )
-    return values / PICTURES[mode]

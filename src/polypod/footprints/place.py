@@ -6,11 +6,11 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
+from polypod.environment.movers import mover_depth
 from polypod.environment.table import (
     EnvironmentTable,
     is_forbidden_at,
     is_wet,
-    mover_depth,
     surface_at,
 )
 from polypod.footprints.settings import (

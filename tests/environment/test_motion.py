@@ -1,0 +1,160 @@
+"""Obstacles that move: where they are, and that what is foreseen comes true."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polypod.environment import Environment, Obstacle, Terrain
+from polypod.environment.movers import clear_of_movers, mover_depth
+from polypod.environment.obstacles import scatter
+from polypod.environment.table import (
+    is_forbidden_at,
+    penetration_at,
+    surface,
+    surface_at,
+    surface_normal_at,
+)
+from polypod.errors import SceneError
+from polypod.math.vec3 import Vec3
+
+BOX = Obstacle.box((0.4, 0.2, 0.6), (0.0, 0.1, 0.0), yaw=0.4)
+LOOP = dataclasses.replace(BOX, path=((1.0, 0.1, 0.0), (1.0, 0.1, 2.0)), speed=0.5)
+
+
+def test_constant_velocity_is_a_straight_line() -> None:
+    place = Environment(obstacles=[dataclasses.replace(BOX, velocity=(0.2, 0.1, -0.3))])
+    for time in (0.0, 0.7, 12.5):
+        place.advance(time)
+        assert place.places()[0] == pytest.approx([0.2 * time, 0.1 + 0.1 * time, -0.3 * time])
+
+
+def test_a_path_is_a_loop_at_constant_speed() -> None:
+    place = Environment(obstacles=[LOOP])
+    around = 1.0 + 2.0 + math.sqrt(5.0)
+    for way, expected in (
+        (0.0, (0.0, 0.0)),
+        (0.25, (0.25, 0.0)),
+        (1.0, (1.0, 0.0)),
+        (2.5, (1.0, 1.5)),
+        (3.0 + 0.5 * math.sqrt(5.0), (0.5, 1.0)),
+        (around + 0.25, (0.25, 0.0)),
+    ):
+        place.advance(way / 0.5)
+        x, y, z = place.places()[0]
+        assert (x, z) == pytest.approx(expected, abs=1e-12)
+        assert y == 0.1
+
+
+@given(
+    seed=st.integers(0, 10_000),
+    time=st.floats(0.0, 20.0),
+    ahead=st.floats(0.0, 1.0),
+    x=st.floats(-2.0, 2.0),
+    z=st.floats(-2.0, 2.0),
+)
+@settings(max_examples=200, deadline=None)
+def test_questions_are_answered_as_for_obstacles_that_stand_there(
+    seed: int, time: float, ahead: float, x: float, z: float
+) -> None:
+    """Asked for later, about a moving world: as a still world says that is built as it is then."""
+    random = np.random.default_rng(seed)
+    size = ((0.1, 0.1, 0.1), (0.8, 0.4, 0.8))
+    crates = scatter(Terrain.flat(), 12, (-2.0, -2.0, 2.0, 2.0), size, seed, 0.3)
+    moving = []
+    for crate in crates:
+        velocity = tuple(random.uniform(-0.4, 0.4, 3).tolist())
+        moving.append(dataclasses.replace(crate, velocity=velocity))
+    env = Environment(obstacles=moving)
+    env.advance(time)
+    there = env.places() + ahead * np.array([crate.velocity for crate in moving])
+    still = Environment(
+        obstacles=[
+            dataclasses.replace(crate, position=tuple(place.tolist()))
+            for crate, place in zip(crates, there, strict=True)
+        ]
+    ).table
+    height, support = surface(still, x, z)
+    assert surface_at(env.table, x, z, ahead) == (pytest.approx(height, abs=1e-9), support)
+    deep, _ = penetration_at(still, Vec3(x, 0.05, z), 0.0)
+    depth, _ = penetration_at(env.table, Vec3(x, 0.05, z), ahead)
+    # Outside, how near is only told within a bucket.
+    assert max(depth, 0.0) == pytest.approx(max(deep, 0.0), abs=1e-9)
+    assert max(mover_depth(env.table, Vec3(x, 0.05, z), ahead, -1), 0.0) == pytest.approx(
+        max(penetration_at(still, Vec3(x, 0.05, z), 0.0)[0], 0.0), abs=1e-9
+    )
+    assert is_forbidden_at(env.table, x, z, 0.1, ahead) == is_forbidden_at(still, x, z, 0.1, 0.0)
+    normal = surface_normal_at(env.table, x, z, ahead)
+    assert normal == pytest.approx(surface_normal_at(still, x, z, 0.0), abs=1e-9)
+
+
+@given(time=st.floats(0.0, 30.0), ahead=st.floats(0.0, 1.0))
+@settings(max_examples=100, deadline=None)
+def test_a_turn_of_the_way_is_foreseen(time: float, ahead: float) -> None:
+    env, later = Environment(obstacles=[LOOP]), Environment(obstacles=[LOOP])
+    env.advance(time)
+    later.advance(time + ahead)
+    x, _, z = later.places()[0]
+    assert surface_at(env.table, x, z, ahead) == (pytest.approx(0.2), 0)
+
+
+@pytest.mark.parametrize(
+    "obstacle",
+    [
+        BOX,
+        Obstacle.sphere(0.5, (0.0, 0.2, 0.0)),
+        Obstacle.cylinder(0.4, 0.5, (0.0, 0.25, 0.0)),
+        Obstacle.cylinder(0.4, 0.5, (0.0, 0.2, 0.0), (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))),
+    ],
+    ids=["box", "sphere", "cylinder", "lying cylinder"],
+)
+def test_the_way_out_is_short_and_never_down(obstacle: Obstacle) -> None:
+    env = Environment(obstacles=[obstacle], movable=True)
+    env.move(0, (3.0, 0.3, -2.0))
+    env.advance(0.0)
+    random = np.random.default_rng(1)
+    inside = shortest = 0
+    for offset in random.uniform(-0.25, 0.25, (200, 3)):
+        point = Vec3(*(np.array([3.0, 0.3, -2.0]) + offset).tolist())
+        depth = mover_depth(env.table, point, 0.0, -1)
+        free = clear_of_movers(env.table, point, 0.0, -1)
+        assert clear_of_movers(env.table, point, 0.0, 0) == point
+        if depth <= 0.0:
+            assert free == point
+            continue
+        inside += 1
+        assert math.dist(free, point) >= depth - 1e-9
+        assert mover_depth(env.table, free, 0.0, -1) == pytest.approx(0.0, abs=1e-9)
+        assert free.y >= point.y - 0.5 * math.dist(free, point) - 1e-9
+        shortest += abs(math.dist(free, point) - depth) < 1e-9
+    assert inside > 20
+    assert shortest > 0.4 * inside
+
+
+def test_what_is_moved_is_there_after_the_next_step() -> None:
+    env = Environment(obstacles=[BOX], movable=True)
+    env.move(0, (5.0, 0.1, 1.0), (0.0, 0.0, 0.4))
+    assert surface(env.table, 5.0, 1.0)[1] == -1
+    env.advance(0.1)
+    assert surface(env.table, 5.0, 1.0) == (pytest.approx(0.2), 0)
+    assert surface_at(env.table, 5.0, 1.4, 1.0) == (pytest.approx(0.2), 0)
+    assert env.table.step[0] == pytest.approx([5.0, 0.0, 1.0])
+    env.advance(0.2)
+    assert env.table.step[0] == pytest.approx([0.0, 0.0, 0.0])
+
+
+def test_moving_is_refused_in_one_sentence() -> None:
+    with pytest.raises(SceneError, match="movable=True"):
+        Environment(obstacles=[BOX]).move(0, (0.0, 0.0, 0.0))
+    env = Environment(obstacles=[BOX, LOOP], movable=True)
+    with pytest.raises(SceneError, match="obstacle 1 cannot be moved"):
+        env.move(1, (0.0, 0.0, 0.0))
+    with pytest.raises(SceneError, match="obstacle 2 cannot be moved"):
+        env.move(2, (0.0, 0.0, 0.0))
+    with pytest.raises(SceneError, match="three numbers"):
+        env.move(0, (0.0, math.nan, 0.0))
