@@ -82,6 +82,9 @@ def measure_all(first_run: bool) -> list[Figure]:
     figures = hundred_spiders(threads)
     note("bench: one spider")
     figures.append(Figure("one spider, 20 s at 30 fps", one_walk(), "s", "under 1"))
+    moving = walk_ms(True) / walk_ms(False)
+    name = "its frame among 40 moving crates"
+    figures.append(Figure(name, moving, "times still", "at most 2"))
     each = []
     for count, worlds in HERDS.items():
         note(f"bench: {count} spiders")
@@ -165,6 +168,47 @@ def frame_ms(
             best = min(best, clock() - began)
         total += best
     return 1e3 * total / (worlds * FRAMES)
+
+
+def walk_ms(moving: bool) -> float:
+    """Return the mean time of a frame of one spider among 40 crates that move, or the same still.
+
+    They go to and fro at a third of its speed, over the strip on which it walks.
+    """
+    from dataclasses import replace
+
+    from polypod.environment.obstacles import scatter
+    from polypod.environment.terrain import Terrain
+    from polypod.morphology.load import load_rig
+    from polypod.world import World
+
+    morphology = load_rig(CREATURE)
+    unit = float(morphology.legs.length.mean())
+    speed = 0.25 * (9.81 * unit) ** 0.5
+    ground = Terrain.flat()
+    size = ((0.16 * unit, 0.04 * unit, 0.16 * unit), (0.6 * unit, 0.16 * unit, 0.6 * unit))
+    area = (-1.5 * unit, 1.5 * unit, 1.5 * unit, speed * WALK_SECONDS)
+    crates = scatter(ground, 40, area, size, 1)
+    if moving:
+        crates = tuple(
+            replace(
+                crate,
+                path=((-crate.position[0], crate.position[1], crate.position[2] + unit),),
+                speed=speed / 3.0,
+            )
+            for crate in crates
+        )
+    taken = []
+    for _ in range(REPEATS):
+        world = World(ground, crates, threads=1)
+        world.add(morphology, position=[0.0, 0.0], speed=speed)
+        started(world)
+        frames = round(WALK_SECONDS * FPS) - START_FRAMES
+        began = time.thread_time()
+        for _ in range(frames):
+            world.step(1.0 / FPS)
+        taken.append((time.thread_time() - began) / frames)
+    return 1e3 * min(taken)
 
 
 def one_walk() -> float:
