@@ -10,7 +10,7 @@ from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.environment.movers import clear_of_movers
-from polypod.environment.table import is_forbidden, surface
+from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 
@@ -30,37 +30,52 @@ NEARLY_DOWN = 0.95
 LANDED = 1e-3
 # So many moments of a frame are looked at for what comes without warning.
 PUSHES = 4
+# And so far is a foot pushed for those between two frames, leg lengths.
+LARGEST_PUSH = 0.05
+# How deep the straight way between two frames may cut into what is stepped on, leg lengths.
+CUT = 0.006
 
 
 @kernel
-def chord_is_free(before: Vec3, after: Vec3, env: Any) -> bool:
-    """Return whether the straight way of a foot in one frame crosses nothing forbidden."""
+def chord_is_free(dt: float, accepted: float, before: Vec3, after: Vec3, env: Any) -> bool:
+    """Return whether the straight way of a foot in one frame crosses nothing forbidden.
+
+    Nor, where things move, goes deeper than `accepted` (m) into anything on its way.
+    """
     for i in range(1, CHORD_SAMPLES + 1):
-        place = mix(before, after, i / CHORD_SAMPLES)
+        share = i / CHORD_SAMPLES
+        place = mix(before, after, share)
         if is_forbidden(env, place.x, place.z, 0.0):
             return False
+        if env.mover_count > 0 and i < CHORD_SAMPLES:
+            depth, _ = penetration_at(env, place, (share - 1.0) * dt)
+            if depth > accepted:
+                return False
     return True
 
 
 @kernel
 def pushed_aside(
-    c: int, k: int, dt: float, before: Vec3, sole: Vec3, state: Any, env: Any
+    c: int, k: int, dt: float, before: Vec3, sole: Vec3, state: Any, tables: Any, env: Any
 ) -> Vec3:  # fmt: skip
     """Return where a foot gets in a frame in which something comes without warning, world.
 
     What is played between two frames is a straight line: it is cleared at four moments.
     """
     own = state.landing_support[c, k]
-    for j in range(1, PUSHES + 1):
+    sole = clear_of_movers(env, sole, 0.0, own)
+    for j in range(1, PUSHES):
         share = j / PUSHES
         place = mix(before, sole, share)
-        free = clear_of_movers(env, place, (share - 1.0) * dt, own)
-        sole = sole + (free - place) * (1.0 / share)
+        push = (clear_of_movers(env, place, (share - 1.0) * dt, own) - place) * (1.0 / share)
+        size = length(push)
+        most = LARGEST_PUSH * tables.legs.length[k]
+        sole = sole + push * (min(size, most) / max(size, 1e-12))
     return sole
 
 
 @kernel
-def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
+def wish_feet(c: int, dt: float, state: Any, tables: Any, env: Any, scratch: Any) -> None:
     """Write to the scratch where every foot should be at the end of the frame.
 
     A foot that catches up takes frames farther apart than it was planned with: where their chord
@@ -78,12 +93,12 @@ def wish_feet(c: int, dt: float, state: Any, env: Any, scratch: Any) -> None:
             before = sole
             sole, turn = foot_along(c, k, progress, state, env)
             for _ in range(SHORTER):
-                if chord_is_free(before, sole, env):
+                if chord_is_free(dt, CUT * tables.legs.length[k], before, sole, env):
                     break
                 progress = 0.5 * (now + progress)
                 sole, turn = foot_along(c, k, progress, state, env)
             if env.mover_count > 0:
-                sole = pushed_aside(c, k, dt, before, sole, state, env)
+                sole = pushed_aside(c, k, dt, before, sole, state, tables, env)
             scratch.progress[k] = progress
         store_vec3(scratch.sole[k], sole)
         store_quat(scratch.turn[k], turn)
@@ -135,7 +150,7 @@ def settle_body(
     angle = angle_of(turn * conjugate(turn_before))
     turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
     wished = Vec3(pose.x, height, pose.z)
-    wish_feet(c, dt, state, env, scratch)
+    wish_feet(c, dt, state, tables, env, scratch)
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
     heading_before = state.heading[c]
     for share in ADVANCES:
@@ -168,7 +183,7 @@ def advance_swings(
             state.waiting[c, k] += dt
             if env.mover_count > 0:
                 here = load_vec3(state.foot[c, k])
-                store_vec3(state.foot[c, k], pushed_aside(c, k, dt, here, here, state, env))
+                store_vec3(state.foot[c, k], pushed_aside(c, k, dt, here, here, state, tables, env))
             continue
         state.waiting[c, k] = 0.0
         state.swing_progress[c, k] = scratch.progress[k]
