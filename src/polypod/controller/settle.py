@@ -156,7 +156,12 @@ def settle_body(
     for share in ADVANCES:
         position = mix(before, wished, share)
         turned = slerp(turn_before, turn, share)
-        if feet_fit(c, position, turned, state, tables, scratch) or share == 0.0:
+        fits = feet_fit(c, position, turned, state, tables, scratch)
+        if share == 0.0 and not fits and env.mover_count > 0:
+            # What some feet stand on has carried the body away from the others.
+            position = body_within_reach(c, state, tables, scratch, position, turned)
+            fits = feet_fit(c, position, turned, state, tables, scratch)
+        if fits or share == 0.0:
             state.held[c] = share
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
