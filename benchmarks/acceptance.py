@@ -1,4 +1,4 @@
-"""Walks every creature over every place and judges each walk by all that issue 2 asks for.
+"""Walks every creature over every place and judges each walk by what no walk may get wrong.
 
     python benchmarks/acceptance.py --rigs spider wolf --places crates forbidden --seeds 3
 

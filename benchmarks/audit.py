@@ -1,4 +1,4 @@
-"""Audits a walk by what issue 2 says it must show: read back from the bytes of its GLB.
+"""Audits a walk by what no walk may get wrong: read back from the bytes of its GLB.
 
 Where a foot is comes from the file that engines play: its node's world matrix at the keys' float32
 times, times the recorded sole offset. What is solid comes from the shapes, not from the maps that
