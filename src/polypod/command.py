@@ -116,6 +116,38 @@ class Command:
                 f"spacing has shape {numbers.shape}; it must fit [creatures, feet, 2] = {shape}"
             ) from None
 
+    def reach(self, foot: int, place: ArrayLike, creature: int | slice = slice(None)) -> None:
+        """Take a leg out of the gait and send its sole to a place [3], world, m.
+
+        It goes there as far as it reaches while the others walk on, and may be sent elsewhere at
+        any time; `put_back` ends it. What is in its way is the caller's care.
+
+        Raises:
+            SettingError: no such foot, or a place that cannot be used.
+        """
+        self._judge_foot(foot)
+        numbers = numbers_of("a place to reach for", place, "metres")
+        if numbers.shape != (3,) or not np.all(np.abs(numbers) <= FARTHEST):
+            raise SettingError(
+                f"a place to reach for is {place!r}; it must be x, y, z within {FARTHEST:g} m"
+            )
+        self.arrays.reach_place[creature, foot] = numbers
+        self.arrays.reaching[creature, foot] = True
+
+    def put_back(self, foot: int, creature: int | slice = slice(None)) -> None:
+        """Put a leg back into the gait: its foot lands and walks on.
+
+        Raises:
+            SettingError: no such foot.
+        """
+        self._judge_foot(foot)
+        self.arrays.reaching[creature, foot] = False
+
+    def _judge_foot(self, foot: int) -> None:
+        count = self.arrays.reaching.shape[1]
+        if not isinstance(foot, int | np.integer) or not 0 <= foot < count:
+            raise SettingError(f"foot is {foot!r}; it must be from 0 to {count - 1}")
+
     def set_gait(self, gait: Gait, creature: int | slice = slice(None)) -> None:
         """Ask for a gait; a walking creature changes to it by P1's rule.
 

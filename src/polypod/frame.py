@@ -15,6 +15,7 @@ from polypod.compute import kernel
 from polypod.controller.lift import any_off_place
 from polypod.controller.moving import any_threatened, carry_feet
 from polypod.controller.plan import plan_feet
+from polypod.controller.reach import note_reaching, reach_feet
 from polypod.controller.settle import advance_swings, settle_body
 from polypod.controller.steering import load_pose, move_body, note_pose, store_pose
 from polypod.controller.swing import shift_spacing
@@ -59,6 +60,8 @@ def drive_creatures(
         # What feet stand on takes them along.
         if env.mover_count > 0 and step == 0:
             carry_feet(c, dt, state, env)
+        # Legs that a higher controller has taken out of the gait.
+        note_reaching(c, state, command, tables, settings)
         # Feet spacing approaches what was asked for.
         shift_spacing(c, seconds, state, command, tables, settings)
         # Tempo, transition, needle.
@@ -107,6 +110,7 @@ def settle_creatures(
         settle_body(c, seconds, pose, height, state, tables, env, scratch)
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
+        reach_feet(c, seconds, state, command, tables)
 
 
 @kernel

@@ -66,6 +66,7 @@ class HerdState(NamedTuple):
     swinging: BoolArray  # [C, K] the foot is off the ground
     airborne: FloatArray  # [C, K] s since it lifted
     frame: FloatArray  # [C] s between two frames that are shown
+    reaching: BoolArray  # [C, K] the leg is out of the gait: its foot goes where it was sent
     steps: IntArray  # [C] into how many steps the frame is divided
     stood: FloatArray  # [C, K] cycles since it landed
     lift_phase: FloatArray  # [C, K] needle at lift-off, or at the last new plan
@@ -108,6 +109,8 @@ class HerdCommand(NamedTuple):
     step_height: FloatArray  # [C] m
     body_height: FloatArray  # [C] m above the feet's plane
     spacing: FloatArray  # [C, K, 2] body x, z: wished shift of each foot's rest place, m
+    reaching: BoolArray  # [C, K] take the leg out of the gait and send its foot to a place
+    reach_place: FloatArray  # [C, K, 3] that place, world, m
     period: FloatArray  # [C] s a cycle, NaN: from speed and morphology
     gait_touchdown: FloatArray  # [C, K] the destination gait: phase of each foot's touchdown
     gait_share: FloatArray  # [C, K] each foot's duty over the mean duty
@@ -176,6 +179,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
                 "path_launch",
                 "residual",
                 "pull",
+                "reaching",
                 "landing_support",
                 "plan_clock",
                 "plan_seconds",
@@ -230,6 +234,8 @@ def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
         **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
         **dict.fromkeys(("period", "blend_cycles", "waypoint_count", "gait_number"), (c,)),
         "spacing": (c, k, 2),
+        "reaching": (c, k),
+        "reach_place": (c, k, 3),
         **dict.fromkeys(("gait_touchdown", "gait_share", "gait_lag"), (c, k)),
         "gait_duty": (c, 3),
         "waypoints": (c, max(waypoints, 1), 2),

@@ -55,6 +55,8 @@ def body_within_reach(
     for attempt in range(PASSES):
         worst = 0.0
         for k in range(state.swinging.shape[1]):
+            if state.reaching[c, k]:
+                continue
             sole = load_vec3(scratch.sole[k])
             foot_turn = load_quat(scratch.turn[k])
             shift = foot_shift(k, tables, sole, foot_turn, position, turn)

@@ -81,6 +81,16 @@ def way_off(
 
 
 @kernel
+def feet_needed(c: int, state: Any) -> int:
+    """Return how many feet must stay down: the gait's own minimum, less those that reach."""
+    needed = state.least_down[c]
+    for k in range(state.swinging.shape[1]):
+        if state.reaching[c, k] and needed > 1:
+            needed -= 1
+    return int(needed)
+
+
+@kernel
 def note_standing(c: int, dt: float, turn: float, state: Any, tables: Any, settings: Any,
     scratch: Any) -> float:  # fmt: skip
     """Note in `scratch.held` which feet need not step; return how far back landings count, cycles.
@@ -93,7 +103,8 @@ def note_standing(c: int, dt: float, turn: float, state: Any, tables: Any, setti
     for k in range(state.swinging.shape[1]):
         scratch.held[k] = not moving and not off_place(c, k, state, tables, settings)
         gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
-        if state.swinging[c, k] and gone < 0.0 and wished_progress(c, k, dt, state) < 1.0:
+        late = state.swinging[c, k] and gone < 0.0 and not state.reaching[c, k]
+        if late and wished_progress(c, k, dt, state) < 1.0:
             landing = 0.0
     return landing
 
@@ -123,7 +134,7 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
         if pull > most:
             most = pull
             worst = k
-    return int(worst if down > state.least_down[c] else count)
+    return int(worst if down > feet_needed(c, state) else count)
 
 
 @kernel

@@ -34,7 +34,7 @@ def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
     for k in range(count):
         if state.swinging[c, k]:
             state.plan_clock[c, k] += dt
-            if state.landing_support[c, k] >= 0:
+            if state.landing_support[c, k] >= 0 and not state.reaching[c, k]:
                 last = state.path.count[c, k, 0] - 1
                 end = load_vec3(state.path.point[c, k, last])
                 store_vec3(state.foot_target[c, k], end + drift(c, k, 1.0, state, env))
@@ -113,7 +113,9 @@ def foot_in_the_way(c: int, first: int, state: Any, tables: Any, env: Any) -> in
 def any_threatened(c: int, state: Any, tables: Any, env: Any) -> bool:
     """Return whether any foot must step away, or is on its way."""
     for k in range(state.swinging.shape[1]):
-        if state.swinging[c, k] or is_threatened(c, k, state, tables, env):
+        if state.swinging[c, k] and not state.reaching[c, k]:
+            return True
+        if not state.swinging[c, k] and is_threatened(c, k, state, tables, env):
             return True
     return False
 

@@ -10,6 +10,7 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.feet import plan_foot, preferred_footprint
 from polypod.controller.lift import (
+    feet_needed,
     foot_out_of_turn,
     leave_ground,
     note_standing,
@@ -40,7 +41,7 @@ def plan_feet(
     than the gait's own minimum. One that finds no place holds its own and looks farther next time.
     """
     for k in range(state.swinging.shape[1]):
-        if not state.swinging[c, k]:
+        if not state.swinging[c, k] or state.reaching[c, k]:
             continue
         blocked = env.mover_count > 0 and way_blocked(c, k, state, tables, env)
         if state.swing_progress[c, k] > settings.replan_until and not blocked:
@@ -67,7 +68,7 @@ def plan_feet(
         else:
             k = next_foot_to_lift(
                 state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
-                state.stood[c], scratch.held, state.least_down[c], settings.late_lift, landing,
+                state.stood[c], scratch.held, feet_needed(c, state), settings.late_lift, landing,
             )  # fmt: skip
             in_turn = k >= 0
             searching = in_turn

@@ -85,7 +85,7 @@ def wish_feet(c: int, dt: float, state: Any, tables: Any, env: Any, scratch: Any
         scratch.progress[k] = 0.0
         sole = load_vec3(state.foot[c, k])
         turn = load_quat(state.foot_rotation[c, k])
-        if state.swinging[c, k]:
+        if state.swinging[c, k] and not state.reaching[c, k]:
             now = state.swing_progress[c, k]
             progress = wished_progress(c, k, dt, state)
             if state.airborne[c, k] + dt <= FRAMES_AIRBORNE * state.frame[c]:
@@ -114,6 +114,8 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
         scratch.held[k] = False
+        if state.reaching[c, k]:
+            continue
         sole = load_vec3(scratch.sole[k])
         foot_turn = load_quat(scratch.turn[k])
         if length(foot_shift(k, tables, sole, foot_turn, position, turn)) <= 2.0 * tolerance:
@@ -180,7 +182,7 @@ def advance_swings(
 ) -> None:  # fmt: skip
     """Carry the swinging feet as far as `settle_body` found, and land those that arrived."""
     for k in range(state.swinging.shape[1]):
-        if not state.swinging[c, k]:
+        if not state.swinging[c, k] or state.reaching[c, k]:
             continue
         state.airborne[c, k] += dt
         sole = load_vec3(scratch.sole[k])
