@@ -61,6 +61,8 @@ class World:
     ) -> None:
         if not isinstance(place, Environment):
             place = Environment(place, obstacles)
+        # Another world may have left it at a later time.
+        place.advance(0.0)
         self.environment = place
         self.kernel_environment = place.kernel_table
         self.herds: list[Herd] = []

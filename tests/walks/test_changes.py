@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from polypod.config import Settings
 from polypod.environment.obstacles import scatter
 from polypod.environment.terrain import Terrain
 from polypod.errors import GaitError, SettingError
@@ -309,3 +310,11 @@ def test_steps_of_any_length_walk(world: World, spider: Herd) -> None:
             leg = spider.tables.leg_length
             assert spider.state.residual[~spider.state.swinging].max(initial=0.0) < 1e-3 * leg
     assert spider.state.position[0, 2] > 1.5
+
+
+def test_a_body_told_to_stay_level_stays_level_uphill() -> None:
+    world = World(Terrain.slope(0.3, length=6.0, start=0.5), threads=1)
+    herd = world.add(load_rig("spider"), speed=0.4, settings=Settings(tilt_share=0.0))
+    assert_sound(walk(world, 6.0), world)
+    assert herd.state.position[0, 1] > 0.3
+    assert np.abs(herd.state.tilt).max() == 0.0

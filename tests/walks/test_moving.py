@@ -91,3 +91,11 @@ def test_threads_make_no_difference_among_moving_crates() -> None:
             world.step(1.0 / 30.0)
         walks.append(herd.state.joint_position.tobytes())
     assert walks[0] == walks[1]
+
+
+def test_a_new_world_begins_where_its_obstacles_do() -> None:
+    crate = Obstacle.box((0.2, 0.1, 0.2), (0.0, 0.05, 3.0))
+    place = Environment(obstacles=[dataclasses.replace(crate, velocity=(0.0, 0.0, -0.5))])
+    place.advance(6.0)
+    World(place)
+    assert place.places()[0] == pytest.approx([0.0, 0.05, 3.0])

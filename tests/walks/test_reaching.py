@@ -76,3 +76,16 @@ def test_wrong_feet_and_places_are_one_sentence() -> None:
         command.reach(0, [0.0, 0.0])
     with pytest.raises(SettingError, match="foot is -1"):
         command.put_back(-1)
+
+
+def test_a_leg_put_back_under_a_standing_body_comes_down() -> None:
+    world = World(threads=1)
+    herd = world.add(load_rig("spider"), position=[0.0, 0.0])
+    for frame in range(150):
+        if frame < 45:
+            herd.command.reach(6, held_out(herd, 6))
+        if frame == 45:
+            herd.command.put_back(6)
+        world.step(1.0 / 30.0)
+    assert not herd.state.swinging[0].any()
+    assert abs(herd.state.foot_reached[0, 6, 1]) < 2e-3 * herd.tables.leg_length

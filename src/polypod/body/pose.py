@@ -221,7 +221,7 @@ def wished_height(
         )
         extra = min(extra, soon, landing)
     # On a steady climb the filter would lag by three of its time constants.
-    climb = state.tilt[c, 0, 0] / (settings.tilt_share * tables.tilt_scale) * state.speed[c]
-    climb *= math.cos(command.travel[c])
-    lead = LAG * seconds * climb
+    share = settings.tilt_share * tables.tilt_scale
+    slope = state.tilt[c, 0, 0] / share if share > 0.0 else plane.slope_forward
+    lead = LAG * seconds * slope * state.speed[c] * math.cos(command.travel[c])
     return follow(state.lift[c], base + extra + lead, seconds, dt) + bob(c, state, tables, settings)
