@@ -23,9 +23,9 @@ from places import RIGS, Rig, crates, default_speed, front, leg_length
 
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
-from polypod.herd import Herd
 from polypod.morphology.builtin import NAMES
 from polypod.morphology.types import Morphology
+from polypod.recording import add_frame
 from polypod.report.ground import Ground
 from polypod.report.record import Recorder, Recording
 from polypod.report.stances import slip_per_stance
@@ -130,32 +130,14 @@ def walk(
     herd = world.add(morphology, speed=speed, position=[0.0, 0.0])
     careless = Careless(environment, 0.5 * speed, seed) if place == "careless" else None
     recorder = Recorder(morphology, len(environment.obstacles))
-    _keep(recorder, world, herd)
+    add_frame(recorder, world, herd, 0)
     for frame in range(1, round(seconds * fps) + 1):
         if careless is not None:
             careless.step(world.time, 1.0 / fps)
         world.step(1.0 / fps)
         world.time = frame / fps
-        _keep(recorder, world, herd)
+        add_frame(recorder, world, herd, 0)
     return recorder.finish(), environment
-
-
-def _keep(recorder: Recorder, world: World, herd: Herd) -> None:
-    state = herd.state
-    turn = np.array([obstacle.rotation for obstacle in world.environment.obstacles])
-    recorder.add(
-        world.time,
-        state.position[0],
-        state.rotation[0],
-        state.joint_position[0],
-        state.joint_rotation[0],
-        state.foot_reached[0],
-        state.foot[0],
-        ~state.swinging[0],
-        np.where(state.swinging[0], -1, state.foot_support[0]),
-        world.environment.places(),
-        turn,
-    )
 
 
 def judge(recording: Recording, environment: Environment, speed: float) -> Soaked:

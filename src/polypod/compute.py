@@ -80,12 +80,17 @@ def kernel(function: Function) -> Function:
     return cast(Function, Kernel(function))
 
 
+def core_count() -> int:
+    """Return how many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def thread_count() -> int:
     """Return how many threads kernels may use: `POLYPOD_THREADS`, or the cores of this process."""
     asked = os.environ.get("POLYPOD_THREADS", "")
     if asked.isdigit() and int(asked) > 0:
         return int(asked)
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return core_count()
 
 
 @cache

@@ -11,25 +11,24 @@ from polypod.report.record import Recorder, Recording
 from polypod.world import World
 
 
-def _add_frame(recorders: list[tuple[Herd, int, Recorder]], world: World) -> None:
+def add_frame(recorder: Recorder, world: World, herd: Herd, creature: int) -> None:
+    """Keep what a creature of a world does now."""
+    state = herd.state
+    standing = ~state.swinging[creature]
     environment = world.environment
-    place = environment.places()
-    turn = np.array([obstacle.rotation for obstacle in environment.obstacles]).reshape(-1, 4)
-    for herd, creature, recorder in recorders:
-        state = herd.state
-        recorder.add(
-            world.time,
-            state.position[creature],
-            state.rotation[creature],
-            state.joint_position[creature],
-            state.joint_rotation[creature],
-            state.foot_reached[creature],
-            state.foot[creature],
-            ~state.swinging[creature],
-            np.where(state.swinging[creature], -1, state.foot_support[creature]),
-            place,
-            turn,
-        )
+    recorder.add(
+        world.time,
+        state.position[creature],
+        state.rotation[creature],
+        state.joint_position[creature],
+        state.joint_rotation[creature],
+        state.foot_reached[creature],
+        state.foot[creature],
+        standing,
+        np.where(standing, state.foot_support[creature], -1),
+        environment.places(),
+        environment.rotations,
+    )
 
 
 def record_walk(
@@ -51,12 +50,14 @@ def record_walk(
     ]
     steps = round(seconds * fps)
     start = world.time
-    _add_frame(recorders, world)
+    for herd, creature, recorder in recorders:
+        add_frame(recorder, world, herd, creature)
     for step in range(1, steps + 1):
         world.step(1.0 / fps)
         # Times are counted, not summed: frame n is at n / fps to the last bit.
         world.time = start + step / fps
-        _add_frame(recorders, world)
+        for herd, creature, recorder in recorders:
+            add_frame(recorder, world, herd, creature)
         if progress is not None:
             progress(step, steps)
     return [recorder.finish() for _, _, recorder in recorders]

@@ -95,6 +95,11 @@ class Environment:
         move_obstacles(self.kernel_table, self._kernel_tracks, time)
         table.step[:] += table.shift
 
+    @property
+    def rotations(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """The obstacles' turns [O, 4], x, y, z, w, which they keep."""
+        return self.table.rotation
+
     def places(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """Return the present centres of all obstacles [O, 3], m."""
         return np.array(self.table.position + self.table.shift)

@@ -14,8 +14,9 @@ from typing import Any
 
 def start() -> Any:
     """Start it where there is a second core; return the process, or None."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    if (cores or 1) < 2 or "NUMBA_DISABLE_JIT" in os.environ:
+    from polypod.compute import core_count
+
+    if core_count() < 2 or "NUMBA_DISABLE_JIT" in os.environ:
         return None
     return subprocess.Popen(
         [sys.executable, "-m", "polypod.jobs.compile_rest"],

@@ -20,8 +20,8 @@ from polypod.paths.curve import (
     PROFILE_BELL,
     PathRow,
     path_point,
+    seconds_ahead,
     swing_progress,
-    swing_time,
 )
 from polypod.paths.scratch import OtherLegs
 
@@ -155,9 +155,7 @@ def deepest(
             u = (j + 1.0) / EXACT_SAMPLES
             ahead = 0.0
             if env.mover_count > 0:
-                along = path.fraction[k] + span * u
-                time = swing_time(along, request.launch) * request.swing_seconds
-                ahead = max(time - request.frame_seconds, 0.0)
+                ahead = seconds_ahead(request, path.fraction[k] + span * u)
             depth, _ = penetration_at(env, hermite(p0, m0, p1, m1, u), ahead)
             excess = depth - accepted
             if sunk > 0.0 and path.fraction[k] < 0.1:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.compute import kernel
+from polypod.footprints.settings import StepRequest
 from polypod.math.hermite import hermite, hermite_slope
 from polypod.math.vec3 import Vec3, load_vec3
 
@@ -150,6 +151,16 @@ def swing_time(progress: float, start_speed: float) -> float:
         else:
             high = middle
     return 0.5 * (low + high)
+
+
+@kernel
+def seconds_ahead(request: StepRequest, progress: float) -> float:
+    """Return how many seconds from now a foot is at a share of its path, for what moves there.
+
+    Obstacles are already where they are at the end of this frame, and feet where they were before.
+    """
+    time = swing_time(progress, request.launch) * request.swing_seconds
+    return max(time - request.frame_seconds, 0.0)
 
 
 @kernel

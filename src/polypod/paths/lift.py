@@ -14,7 +14,7 @@ from polypod.environment.table import (
 )
 from polypod.footprints.settings import FootShape, PlanSettings, StepRequest, foot_shape
 from polypod.math.vec3 import Vec3, distance, dot, length, load_vec3, store_vec3
-from polypod.paths.curve import PATH_KNOTS, PathRow, swing_time
+from polypod.paths.curve import PATH_KNOTS, PathRow, seconds_ahead
 from polypod.paths.hull import hull_curve, upper_hull
 from polypod.paths.near import meets_near, obstacles_near
 from polypod.paths.scratch import LiftScratch
@@ -156,8 +156,7 @@ def require(
         arc = min(lift.arc[k - 1], lift.arc[k])
         ahead = 0.0
         if env.mover_count > 0:
-            time = swing_time(lift.station[k] / total, request.launch)
-            ahead = max(time * request.swing_seconds - request.frame_seconds, 0.0)
+            ahead = seconds_ahead(request, lift.station[k] / total)
         top = -1e300
         for j in range(samples):
             u = (j + 1.0) / samples
