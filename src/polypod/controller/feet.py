@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, foot_on_its_way
 from polypod.compute import kernel
+from polypod.controller.ahead import body_height_at, hip_at, level_height
+from polypod.controller.align import aligned_turn, ground_normal_under
 from polypod.controller.steering import PlanPose, predict
-from polypod.environment.table import shift_of, surface_at, surface_normal, surface_normal_at
+from polypod.environment.table import shift_of, surface_at
 from polypod.footprints.plan import plan_step
-from polypod.footprints.settings import StepRequest, landing_time
-from polypod.ik.foot import foot_rotation
+from polypod.footprints.settings import StepRequest, landing_time, placed_shape
 from polypod.math.quat import rotate, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
 
@@ -52,33 +53,6 @@ def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, setting
         under = rotate(turn, Vec3(0.0, tables.legs.sole_stance[k, 1], 0.0))
         offset = offset - Vec3(under.x, 0.0, under.z) * settings.upright_lean
     return offset
-
-
-@kernel
-def body_height_at(c: int, x: float, z: float, state: Any) -> float:
-    """Return the height that the body would have elsewhere, carried along the feet's plane."""
-    dx = x - state.position[c, 0]
-    dz = z - state.position[c, 2]
-    sine = math.sin(state.heading[c])
-    cosine = math.cos(state.heading[c])
-    rise: float = state.slope[c, 0] * (dx * sine + dz * cosine) + state.slope[c, 1] * (
-        dx * cosine - dz * sine
-    )
-    return state.position[c, 1] + rise
-
-
-@kernel
-def level_height(c: int, x: float, z: float, state: Any) -> float:
-    """Return the height of the feet's plane at a place, world."""
-    return body_height_at(c, x, z, state) - state.position[c, 1] + state.plane_height[c]
-
-
-@kernel
-def hip_at(c: int, k: int, pose: PlanPose, state: Any, tables: Any) -> Vec3:
-    """Return a hip's place, world, when the body is at a predicted pose."""
-    turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-    centre = Vec3(pose.x, body_height_at(c, pose.x, pose.z, state), pose.z)
-    return centre + rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
 
 
 @kernel
@@ -150,12 +124,13 @@ def plan_foot(
     middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
     leaving = predict(pose, touchdown + stance, c, command, tables, settings)
     start = load_vec3(state.foot[c, k])
-    turn = foot_rotation(
-        middle.heading,
-        surface_normal(env, preferred.x, preferred.z),
-        settings.foot_align,
-        settings.foot_tilt,
+    height, _ = surface_at(env, preferred.x, preferred.z, touchdown)
+    place = Vec3(preferred.x, height, preferred.z)
+    shape = placed_shape(
+        legs.foot_half_size[k, 0], legs.foot_half_size[k, 1], legs.foot_behind[k], middle.heading
     )
+    normal = ground_normal_under(env, shape, place.x, place.z, touchdown)
+    turn = aligned_turn(c, k, place, normal, landing, middle, state, tables, settings, scratch)
     hip = hip_at(c, k, landing, state, tables)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
     others = gather_other_legs(c, k, state, tables, scratch.plan)
@@ -170,7 +145,7 @@ def plan_foot(
             hip_at(c, k, pose, state, tables),
             hip,
             hip_at(c, k, leaving, state, tables),
-            effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn),
+            effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn, 0.0),
             tables.ik.shortest[k],
             tables.ik.longest[k],
             tables.ik.comfortable[k],
@@ -190,6 +165,8 @@ def plan_foot(
             level_height(c, preferred.x, preferred.z, state),
             stance,
             tables.level_weight,
+            int(settings.swing_profile),
+            legs.foot_behind[k],
         )
         found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
         if found:
@@ -198,12 +175,8 @@ def plan_foot(
         return False
     target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
     seconds = landing_time(request)
-    turn = foot_rotation(
-        middle.heading,
-        surface_normal_at(env, target.x, target.z, seconds),
-        settings.foot_align,
-        settings.foot_tilt,
-    )
+    normal = ground_normal_under(env, shape, target.x, target.z, seconds)
+    turn = aligned_turn(c, k, target, normal, landing, middle, state, tables, settings, scratch)
     _, support = surface_at(env, target.x, target.z, seconds)
     state.landing_support[c, k] = support
     state.plan_clock[c, k] = 0.0

@@ -1,0 +1,212 @@
+"""How a foot rolls off and comes down: heel up before lift-off, trailing, and heel or toes first.
+
+Two angles, rad, positive where the heel is higher than the toes. The *bend* raises the heel about
+the roll's pivot while toes stay flat (`polypod.morphology.roll`); the *pitch* turns the whole foot
+about its sole. Neither moves the sole. Standing feet follow a target through a filter and swinging
+feet a curve that begins with the angle and the rate of lift-off, so both are continuous.
+
+The figures are those of animals filmed from the side, for feet of one piece: a walking human's heel
+rises from the middle of the stance on, and strikes with toes up by some 20 degrees; paws and hooves
+tip over their toes late, trail far back, and come down nearly flat, toes first.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.body.smoothing import follow
+from polypod.compute import kernel
+from polypod.environment.table import surface
+from polypod.math.intervals import wrap_phase
+from polypod.math.quat import load_quat, rotate
+from polypod.math.vec3 import Vec3, load_vec3
+from polypod.morphology.roll import FLAT
+from polypod.paths.curve import path_point
+from polypod.paths.curve import swing_progress as progress_on_path
+
+# By kind (FLAT, TOE_FIRST, HEEL_FIRST), rad: the heel's rise at lift-off, how far the foot trails
+# in swing, how far the toes are up before a heel strikes, and the heel when toes land first.
+HEEL_RISE = (0.0, 0.5, 0.6)
+TRAIL = (0.0, 0.6, 0.4)
+STRIKE = (0.0, 0.0, 0.32)
+TOES_DOWN = (0.0, 0.1, 0.0)
+# The share of the stance from which the heel rises.
+RISE_FROM = (1.0, 0.55, 0.4)
+# Shares of the swing: where the bend has gone over into pitch, the foot trails most, and its toes
+# are highest.
+UNBENT = 0.3
+TRAILING = 0.35
+READY = 0.8
+# Steps, and ways of the body in a stance, this long roll in full, leg lengths; none without.
+FULL_STRIDE = 0.5
+# Share of a cycle in which a standing foot follows its target.
+FOLLOWING = 0.1
+SLOWEST = 4.0  # and that cycle at most, leg pendulum times
+# A swing's roll is tried against the ground in so many moments, and keeps so much of the room.
+SAMPLES = 8
+ROOM = 0.8
+
+
+@kernel
+def stride_share(length: float, leg_length: float) -> float:
+    """Return how much of a roll belongs to a step forward by `length`, m: none on the spot."""
+    share = min(1.0, max(0.0, length / (FULL_STRIDE * leg_length)))
+    return share * share * (3.0 - 2.0 * share)
+
+
+@kernel
+def heel_target(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
+    """Return how far a standing foot's heel should be up, by how much of its stance is over."""
+    kind = tables.legs.roll_kind[k]
+    rate = state.cycle_rate[c]
+    if kind == FLAT or rate <= 0.0 or state.reaching[c, k]:
+        return 0.0
+    duty = 1.0 - state.swing_extent[c, k]
+    stood = wrap_phase(state.needle[c] - state.swing_start[c, k] - state.swing_extent[c, k])
+    # A foot that is still down in its swing sector stays up on its toes.
+    share = 1.0 if stood >= duty else stood / duty
+    way = state.speed[c] * math.cos(command.travel[c]) * duty / rate
+    rise = max(0.0, share - RISE_FROM[kind]) / (1.0 - RISE_FROM[kind])
+    # One that has just landed out of turn stands first.
+    settled = min(1.0, state.stood[c, k] / (0.5 * duty))
+    whole: float = settled * HEEL_RISE[kind] * stride_share(way, tables.legs.length[k])
+    return whole * rise * rise * (3.0 - 2.0 * rise)
+
+
+@kernel
+def roll_standing(
+    c: int, k: int, dt: float, state: Any, command: Any, tables: Any, scratch: Any
+) -> None:
+    """Write to the scratch how far a foot that does not swing rolls by the end of the step."""
+    for i in range(3):
+        scratch.pitch[k, i] = state.foot_pitch[c, k, i]
+        scratch.bend[k, i] = state.foot_bend[c, k, i]
+    if tables.legs.roll_kind[k] == FLAT:
+        return
+    seconds = SLOWEST * tables.pendulum_time
+    if state.cycle_rate[c] > 0.0:
+        seconds = min(seconds, 1.0 / state.cycle_rate[c])
+    follow(scratch.pitch[k], 0.0, FOLLOWING * seconds, dt)
+    follow(
+        scratch.bend[k],
+        heel_target(c, k, state, command, tables),
+        FOLLOWING * seconds,
+        dt,
+    )
+
+
+@kernel
+def eased(a: float, b: float, share: float) -> float:
+    """Return the way from one angle to another that begins and ends at rest."""
+    return a + (b - a) * share * share * (3.0 - 2.0 * share)
+
+
+@kernel
+def pitch_along(
+    gone: float, start: float, rate: float, trail: float, up: float, end: float
+) -> float:
+    """Return the pitch at a share of the swing: from its start over trailing and `up` to the end.
+
+    `rate` is the pitch's at the start, rad a swing.
+    """
+    if gone < TRAILING:
+        share = gone / TRAILING
+        own = share * (1.0 - share) * (1.0 - share) * TRAILING * rate
+        return eased(start, trail, share) + own
+    if gone < READY:
+        return eased(trail, up, (gone - TRAILING) / (READY - TRAILING))
+    return eased(up, end, (gone - READY) / (1.0 - READY))
+
+
+@kernel
+def bend_along(gone: float, start: float, rate: float) -> float:
+    """Return the bend at a share of the swing: what lift-off left of it goes over into pitch."""
+    if gone >= UNBENT:
+        return 0.0
+    share = gone / UNBENT
+    left = 1.0 - share
+    return start * left * left * (1.0 + 2.0 * share) + rate * UNBENT * share * left * left
+
+
+@kernel
+def roll_swinging(c: int, k: int, dt: float, progress: float, state: Any, scratch: Any) -> None:
+    """Write to the scratch how far a swinging foot rolls at a share of its present swing."""
+    begun = state.swing_begun[c, k]
+    gone = begun + (1.0 - begun) * progress
+    start = state.roll_start[c, k]
+    plan = state.roll_plan[c, k]
+    pitch = pitch_along(gone, start[0], start[1], plan[0], plan[1], plan[2])
+    bend = bend_along(gone, start[2], start[3])
+    scratch.pitch[k, 1] = (pitch - state.foot_pitch[c, k, 0]) / dt
+    scratch.bend[k, 1] = (bend - state.foot_bend[c, k, 0]) / dt
+    for i in (0, 2):
+        scratch.pitch[k, i] = pitch
+        scratch.bend[k, i] = bend
+
+
+@kernel
+def room_below(
+    c: int, k: int, gone: float, behind: float, state: Any, tables: Any, scratch: Any, env: Any
+) -> float:
+    """Return how high the foot's underside is over the ground at a share of the path planned, m.
+
+    At the place `behind` metres behind the sole, or ahead of it where that is negative, when the
+    foot is not rolled.
+    """
+    path = scratch.path
+    along, _ = progress_on_path(state.path_profile[c, k], gone, 0.0)
+    sole = path_point(path.point, path.tangent, path.fraction, path.count[0], along)
+    arm = rotate(load_quat(state.foot_rotation_target[c, k]), Vec3(0.0, 0.0, -behind))
+    place = sole + arm
+    height, _ = surface(env, place.x, place.z)
+    return place.y - height
+
+
+@kernel
+def begin_roll(c: int, k: int, pace: float, state: Any) -> None:
+    """Begin a swing's roll with the foot's present angles; as it stands it levels out.
+
+    `pace` is the share of the swing that it goes in a second.
+    """
+    state.swing_begun[c, k] = 0.0
+    state.roll_start[c, k, 0] = state.foot_pitch[c, k, 0]
+    state.roll_start[c, k, 1] = state.foot_pitch[c, k, 1] / pace
+    state.roll_start[c, k, 2] = state.foot_bend[c, k, 0]
+    state.roll_start[c, k, 3] = state.foot_bend[c, k, 1] / pace
+    for i in range(3):
+        state.roll_plan[c, k, i] = 0.0
+
+
+@kernel
+def plan_roll(c: int, k: int, pace: float, state: Any, tables: Any, scratch: Any, env: Any) -> None:
+    """Begin a swing's roll on the path just planned: as far as path and ground allow.
+
+    Neither may a heel that comes first, nor toes that hang down, meet what the path passes over or
+    what the foot lands on.
+    """
+    legs = tables.legs
+    begin_roll(c, k, pace, state)
+    plan = state.roll_plan[c, k]
+    kind = legs.roll_kind[k]
+    if kind == FLAT:
+        return
+    step = load_vec3(state.foot_target[c, k]) - load_vec3(state.foot[c, k])
+    ahead = rotate(load_quat(state.foot_rotation_target[c, k]), Vec3(0.0, 0.0, 1.0))
+    share = stride_share(step.x * ahead.x + step.z * ahead.z, legs.length[k])
+    heel = legs.foot_behind[k] + legs.foot_half_size[k, 1]
+    toes = legs.foot_half_size[k, 1] - legs.foot_behind[k]
+    trail = TRAIL[kind] * share
+    strike = STRIKE[kind] * share
+    for i in range(1, SAMPLES):
+        gone = i / SAMPLES
+        size = pitch_along(gone, 0.0, 0.0, 1.0, -1.0, 0.0)
+        if size > 0.0:
+            room = ROOM * room_below(c, k, gone, -toes, state, tables, scratch, env)
+            trail = min(trail, math.asin(min(1.0, max(0.0, room / toes))) / size)
+        else:
+            room = ROOM * room_below(c, k, gone, heel, state, tables, scratch, env)
+            strike = min(strike, math.asin(min(1.0, max(0.0, room / heel))) / -size)
+    plan[0] = trail
+    plan[1] = TOES_DOWN[kind] * share - strike
+    plan[2] = TOES_DOWN[kind] * share
