@@ -9,7 +9,7 @@ from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.ahead import hip_at
 from polypod.controller.steering import PlanPose
-from polypod.environment.table import surface_at
+from polypod.environment.table import surface_at, surface_normal_at
 from polypod.footprints.settings import FootShape
 from polypod.ik.foot import foot_rotation
 from polypod.ik.solve import solve_leg
@@ -18,17 +18,18 @@ from polypod.math.vec3 import Vec3, distance, load_vec3
 
 # Halvings of the way from level to flat, where flat is too much for ankle or leg.
 HALVINGS = 7
+# How much worse a corner that sinks in is than one in the air.
+SINKING = 4.0
+# Corners this near to a plane make it one, half extents of the foot; steeper ground is a wall.
+FITTING = 0.02
+STEEPEST = 0.3
 # Feet that stand as good as level need no question.
 LEVEL = 1e-6
 
 
 @kernel
-def ground_normal_under(env: Any, foot: FootShape, x: float, z: float, ahead: float) -> Vec3:
-    """Return a normal, not of unit length, of the plane under a foot's shape, world.
-
-    `x`, `z` is the sole's place; `ahead` is the seconds from now for which it is asked. The plane
-    is that of the middles of the shape's sides.
-    """
+def plane_normal_under(env: Any, foot: FootShape, x: float, z: float, ahead: float) -> Vec3:
+    """Return a normal, not of unit length, of the plane through the middles of a shape's sides."""
     x += foot.middle_x
     z += foot.middle_z
     half_x = foot.half_x
@@ -42,6 +43,49 @@ def ground_normal_under(env: Any, foot: FootShape, x: float, z: float, ahead: fl
     return Vec3(
         -across * foot.cosine - along * foot.sine, 1.0, across * foot.sine - along * foot.cosine
     )
+
+
+@kernel
+def misfit(env: Any, foot: FootShape, sole: Vec3, normal: Vec3, ahead: float) -> float:
+    """Return how badly a foot stands whose shape lies in a plane through its sole, m.
+
+    The gaps under its four corners, those that sink in counted several times.
+    """
+    total = 0.0
+    for corner in range(4):
+        a = foot.half_x if corner < 2 else -foot.half_x
+        b = foot.half_z if corner % 2 == 0 else -foot.half_z
+        x = foot.middle_x + a * foot.cosine + b * foot.sine
+        z = foot.middle_z - a * foot.sine + b * foot.cosine
+        height, _ = surface_at(env, sole.x + x, sole.z + z, ahead)
+        gap = sole.y - (normal.x * x + normal.z * z) / normal.y - height
+        total += gap if gap >= 0.0 else -SINKING * gap
+    return total
+
+
+@kernel
+def ground_normal_under(env: Any, foot: FootShape, sole: Vec3, ahead: float) -> Vec3:
+    """Return a normal, not of unit length, of the ground on which a foot's shape lies best, world.
+
+    The plane through its shape; where that is no plane, as beside an edge that it overhangs, it may
+    lie better on what is under its sole or under its middle. `ahead` is the seconds from now for
+    which it is asked.
+    """
+    best = plane_normal_under(env, foot, sole.x, sole.z, ahead)
+    least = misfit(env, foot, sole, best, ahead)
+    if least <= FITTING * foot.radius:
+        return best
+    for share in range(2):
+        x = sole.x + share * foot.middle_x
+        z = sole.z + share * foot.middle_z
+        normal = surface_normal_at(env, x, z, ahead)
+        if normal.y < STEEPEST:
+            continue
+        other = misfit(env, foot, sole, normal, ahead)
+        if other < least:
+            least = other
+            best = normal
+    return best
 
 
 @kernel

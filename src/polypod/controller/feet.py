@@ -19,7 +19,8 @@ from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_ve
 
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
-# Where no path is found, a lower one may pass under the leg's shortest reach.
+# Where no path is found, a lower one may pass under the leg's shortest reach: its sole then clears
+# uneven ground, but not the whole foot.
 STEP_SHARES = (1.0, 0.35)
 
 
@@ -129,7 +130,7 @@ def plan_foot(
     shape = placed_shape(
         legs.foot_half_size[k, 0], legs.foot_half_size[k, 1], legs.foot_behind[k], middle.heading
     )
-    normal = ground_normal_under(env, shape, place.x, place.z, touchdown)
+    normal = ground_normal_under(env, shape, place, touchdown)
     turn = aligned_turn(c, k, place, normal, landing, middle, state, tables, settings, scratch)
     hip = hip_at(c, k, landing, state, tables)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
@@ -137,7 +138,7 @@ def plan_foot(
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
     found = False
-    for share in STEP_SHARES:
+    for attempt in range(len(STEP_SHARES)):
         request = StepRequest(
             start,
             errand.velocity,
@@ -150,7 +151,7 @@ def plan_foot(
             tables.ik.longest[k],
             tables.ik.comfortable[k],
             legs.length[k],
-            command.step_height[c] * share,
+            command.step_height[c] * STEP_SHARES[attempt],
             legs.foot_half_size[k, 0],
             legs.foot_half_size[k, 1],
             middle.heading,
@@ -167,6 +168,7 @@ def plan_foot(
             tables.level_weight,
             int(settings.swing_profile),
             legs.foot_behind[k],
+            attempt == 0,
         )
         found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
         if found:
@@ -175,7 +177,7 @@ def plan_foot(
         return False
     target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
     seconds = landing_time(request)
-    normal = ground_normal_under(env, shape, target.x, target.z, seconds)
+    normal = ground_normal_under(env, shape, target, seconds)
     turn = aligned_turn(c, k, target, normal, landing, middle, state, tables, settings, scratch)
     _, support = surface_at(env, target.x, target.z, seconds)
     state.landing_support[c, k] = support

@@ -40,12 +40,17 @@ TRAILING = 0.35
 READY = 0.8
 # Steps, and ways of the body in a stance, this long roll in full, leg lengths; none without.
 FULL_STRIDE = 0.5
-# Share of a cycle in which a standing foot follows its target.
-FOLLOWING = 0.1
+# Shares of a cycle in which a standing foot's heel rises to its target, and sinks to it where the
+# foot has missed its turn.
+RISING = 0.1
+SINKING = 0.3
 SLOWEST = 4.0  # and that cycle at most, leg pendulum times
 # A swing's roll is tried against the ground in so many moments, and keeps so much of the room.
-SAMPLES = 8
+SAMPLES = 16
 ROOM = 0.8
+# A foot that lifts flat trails by this share; and none turns back faster, rad a leg pendulum time.
+TRAIL_FLAT = 0.4
+FASTEST_ROLL = 2.2
 
 
 @kernel
@@ -87,13 +92,10 @@ def roll_standing(
     seconds = SLOWEST * tables.pendulum_time
     if state.cycle_rate[c] > 0.0:
         seconds = min(seconds, 1.0 / state.cycle_rate[c])
-    follow(scratch.pitch[k], 0.0, FOLLOWING * seconds, dt)
-    follow(
-        scratch.bend[k],
-        heel_target(c, k, state, command, tables),
-        FOLLOWING * seconds,
-        dt,
-    )
+    target = heel_target(c, k, state, command, tables)
+    time = RISING if target >= scratch.bend[k, 0] else SINKING
+    follow(scratch.bend[k], target, time * seconds, dt)
+    follow(scratch.pitch[k], 0.0, SINKING * seconds, dt)
 
 
 @kernel
@@ -197,6 +199,10 @@ def plan_roll(c: int, k: int, pace: float, state: Any, tables: Any, scratch: Any
     heel = legs.foot_behind[k] + legs.foot_half_size[k, 1]
     toes = legs.foot_half_size[k, 1] - legs.foot_behind[k]
     trail = TRAIL[kind] * share
+    rolled = (state.foot_pitch[c, k, 0] + state.foot_bend[c, k, 0]) / HEEL_RISE[kind]
+    trail *= TRAIL_FLAT + (1.0 - TRAIL_FLAT) * min(1.0, max(0.0, rolled))
+    # The steepest of a piece of the curve is half as steep again as the whole.
+    trail = min(trail, FASTEST_ROLL / tables.pendulum_time * TRAILING / (1.5 * pace))
     strike = STRIKE[kind] * share
     for i in range(1, SAMPLES):
         gone = i / SAMPLES

@@ -99,6 +99,7 @@ def request_in(frame: FootFrame, request: StepRequest) -> StepRequest:
         request.level_weight,
         request.profile,
         request.foot_behind,
+        request.clears_whole,
     )
 
 

@@ -110,6 +110,7 @@ class StepRequest(NamedTuple):
     level_weight: float = 0.0  # what a place at that height is worth, beside the settings' weights
     profile: int = 0  # polypod.paths.curve: the time profile on the path
     foot_behind: float = 0.0  # m, from the sole back to the middle of the foot's shape
+    clears_whole: bool = False  # its whole shape keeps clear of uneven ground, not the sole alone
 
 
 @kernel

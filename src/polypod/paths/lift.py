@@ -151,7 +151,7 @@ def require(
     listed = min(count, lift.near.shape[0])
     level = env.terrain_range[0] == env.terrain_range[1]
     # A long foot on uneven ground: what its sole passes over is not all that it must clear.
-    broad = not level and foot.radius > BROAD * leg
+    broad = not level and request.clears_whole and foot.radius > BROAD * leg
     total = lift.station[LAST]
     stretch = 2.0 * full + clearance
     for k in range(1, PATH_KNOTS):
@@ -171,8 +171,8 @@ def require(
             met = 2
             if count == listed:
                 met = meets_near(env, lift.near, count, x, z, wide, arc - clearance)
-            at_x = x + foot.middle_x
-            at_z = z + foot.middle_z
+            at_x = x + foot.middle_x * share
+            at_z = z + foot.middle_z * share
             if met == 2 and is_forbidden_at(env, at_x, at_z, barred * share, ahead):
                 return False
             height = ground_height(env, x, z)
