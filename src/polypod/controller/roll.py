@@ -37,17 +37,19 @@ RISE_FROM = (1.0, 0.55, 0.4)
 # are highest.
 UNBENT = 0.3
 TRAILING = 0.35
-READY = 0.8
+READY = 0.7
 # Steps, and ways of the body in a stance, this long roll in full, leg lengths; none without.
 FULL_STRIDE = 0.5
-# Shares of a cycle in which a standing foot's heel rises to its target, and sinks to it where the
-# foot has missed its turn.
+# Shares of a cycle in which a standing foot's heel rises to its target, sinks to it where the foot
+# has missed its turn, and comes down after the toes.
 RISING = 0.1
 SINKING = 0.3
+SETTLING = 0.15
 SLOWEST = 4.0  # and that cycle at most, leg pendulum times
 # A swing's roll is tried against the ground in so many moments, and keeps so much of the room.
 SAMPLES = 16
 ROOM = 0.8
+SUNK = 0.003  # and may sink so deep, leg lengths
 # A foot that lifts flat trails by this share; and none turns back faster, rad a leg pendulum time.
 TRAIL_FLAT = 0.4
 FASTEST_ROLL = 2.2
@@ -95,7 +97,7 @@ def roll_standing(
     target = heel_target(c, k, state, command, tables)
     time = RISING if target >= scratch.bend[k, 0] else SINKING
     follow(scratch.bend[k], target, time * seconds, dt)
-    follow(scratch.pitch[k], 0.0, SINKING * seconds, dt)
+    follow(scratch.pitch[k], 0.0, SETTLING * seconds, dt)
 
 
 @kernel
@@ -118,7 +120,9 @@ def pitch_along(
         return eased(start, trail, share) + own
     if gone < READY:
         return eased(trail, up, (gone - TRAILING) / (READY - TRAILING))
-    return eased(up, end, (gone - READY) / (1.0 - READY))
+    # The sole comes down as fast as this does: a heel that is ahead of it meets the ground early.
+    left = (1.0 - gone) / (1.0 - READY)
+    return end + (up - end) * left * left * left * (4.0 - 3.0 * left)
 
 
 @kernel
@@ -212,6 +216,7 @@ def plan_roll(c: int, k: int, pace: float, state: Any, tables: Any, scratch: Any
             trail = min(trail, math.asin(min(1.0, max(0.0, room / toes))) / size)
         else:
             room = ROOM * room_below(c, k, gone, heel, state, tables, scratch, env)
+            room += SUNK * legs.length[k]
             strike = min(strike, math.asin(min(1.0, max(0.0, room / heel))) / -size)
     plan[0] = trail
     plan[1] = TOES_DOWN[kind] * share - strike
