@@ -20,7 +20,7 @@ from polypod.environment.terrain import Terrain
 from polypod.errors import SettingError
 from polypod.footprints.settings import placed_shape
 from polypod.herd import make_tables
-from polypod.math.quat import Quat, from_axis_angle, from_heading, rotate
+from polypod.math.quat import from_axis_angle, from_heading, rotate
 from polypod.math.vec3 import Vec3, distance, dot, length, load_vec3, normalized
 from polypod.morphology.load import load_rig
 from polypod.morphology.types import Morphology
