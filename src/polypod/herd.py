@@ -46,6 +46,7 @@ class Scratch(NamedTuple):
     turn: FloatArray  # [K, 4]
     pitch: FloatArray  # [K, 3]
     bend: FloatArray  # [K, 3]
+    hip: FloatArray  # [2, 3] of the foot just planned: now and at touchdown
     held: BoolArray  # [K]
     start: FloatArray  # [K]
     extent: FloatArray  # [K]
@@ -170,6 +171,7 @@ class Herd:
                 turn=np.zeros((feet, 4)),
                 pitch=np.zeros((feet, 3)),
                 bend=np.zeros((feet, 3)),
+                hip=np.zeros((2, 3)),
                 held=np.zeros(feet, np.bool_),
                 start=np.zeros(feet),
                 extent=np.zeros(feet),

@@ -114,8 +114,9 @@ def plan_foot(
 ) -> bool:  # fmt: skip
     """Plan a foot's way from where it is to the best place near the preferred one.
 
-    The path is left in the scratch; the target and the touchdown orientation go to the state.
-    Returns False where no valid pair of footprint and path was found; the state is then untouched.
+    The path and the hip's way are left in the scratch; the target and the touchdown orientation go
+    to the state. Returns False where no valid pair of footprint and path was found; the state is
+    then untouched.
     """
     legs = tables.legs
     preferred = errand.preferred
@@ -133,6 +134,8 @@ def plan_foot(
     normal = ground_normal_under(env, shape, place, touchdown)
     turn = aligned_turn(c, k, place, normal, landing, middle, state, tables, settings, scratch)
     hip = hip_at(c, k, landing, state, tables)
+    store_vec3(scratch.hip[0], hip_at(c, k, pose, state, tables))
+    store_vec3(scratch.hip[1], hip)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
     others = gather_other_legs(c, k, state, tables, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
@@ -143,7 +146,7 @@ def plan_foot(
             start,
             errand.velocity,
             preferred,
-            hip_at(c, k, pose, state, tables),
+            load_vec3(scratch.hip[0]),
             hip,
             hip_at(c, k, leaving, state, tables),
             effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn, 0.0),

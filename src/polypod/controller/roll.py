@@ -15,12 +15,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.reach import effector_world, pitched
 from polypod.body.smoothing import follow
 from polypod.compute import kernel
 from polypod.environment.table import surface
 from polypod.math.intervals import wrap_phase
-from polypod.math.quat import load_quat, rotate
-from polypod.math.vec3 import Vec3, load_vec3
+from polypod.math.quat import Quat, load_quat, rotate
+from polypod.math.vec3 import Vec3, distance, load_vec3, mix
 from polypod.morphology.roll import FLAT
 from polypod.paths.curve import path_point
 from polypod.paths.curve import swing_progress as progress_on_path
@@ -49,6 +50,11 @@ SLOWEST = 4.0  # and that cycle at most, leg pendulum times
 # A swing's roll is tried against the ground in so many moments, and keeps so much of the room.
 SAMPLES = 16
 ROOM = 0.8
+LEAST_SIZE = 0.02  # of the roll there, or it says nothing
+# What the leg does not reach is shrunk so often, by so much; a folded leg keeps some of its range.
+SHRINKS = 5
+SHRINK = 0.7
+NEAREST = 1.02
 SUNK = 0.003  # and may sink so deep, leg lengths
 # A foot that lifts flat trails by this share; and none turns back faster, rad a leg pendulum time.
 TRAIL_FLAT = 0.4
@@ -152,21 +158,40 @@ def roll_swinging(c: int, k: int, dt: float, progress: float, state: Any, scratc
 
 
 @kernel
-def room_below(
-    c: int, k: int, gone: float, behind: float, state: Any, tables: Any, scratch: Any, env: Any
-) -> float:
-    """Return how high the foot's underside is over the ground at a share of the path planned, m.
-
-    At the place `behind` metres behind the sole, or ahead of it where that is negative, when the
-    foot is not rolled.
-    """
+def sole_planned(c: int, k: int, gone: float, state: Any, scratch: Any) -> Vec3:
+    """Return where a foot is at a share of the path just planned, world."""
     path = scratch.path
     along, _ = progress_on_path(state.path_profile[c, k], gone, 0.0)
-    sole = path_point(path.point, path.tangent, path.fraction, path.count[0], along)
-    arm = rotate(load_quat(state.foot_rotation_target[c, k]), Vec3(0.0, 0.0, -behind))
-    place = sole + arm
-    height, _ = surface(env, place.x, place.z)
-    return place.y - height
+    return path_point(path.point, path.tangent, path.fraction, path.count[0], along)
+
+
+@kernel
+def room_below(sole: Vec3, turn: Quat, half_width: float, behind: float, env: Any) -> float:
+    """Return how high a side of a foot's shape is over the ground, m.
+
+    The lower of the two corners `behind` metres behind the sole, or ahead of it where that is
+    negative, when the foot is turned by `turn` and not rolled.
+    """
+    least = math.inf
+    for side in range(2):
+        across = half_width * (1.0 - 2.0 * side)
+        place = sole + rotate(turn, Vec3(across, 0.0, -behind))
+        height, _ = surface(env, place.x, place.z)
+        least = min(least, place.y - height)
+    return least
+
+
+@kernel
+def reach_share(k: int, sole: Vec3, turn: Quat, hip: Vec3, pitch: float, tables: Any) -> float:
+    """Return how much of a pitch (rad) leaves the ankle within its leg's shortest and longest."""
+    share = 1.0
+    for _ in range(SHRINKS):
+        ankle = effector_world(k, tables, sole, pitched(turn, pitch * share), 0.0)
+        far = distance(ankle, hip)
+        if tables.ik.shortest[k] * NEAREST <= far <= tables.ik.longest[k]:
+            return share
+        share *= SHRINK
+    return 0.0
 
 
 @kernel
@@ -208,16 +233,22 @@ def plan_roll(c: int, k: int, pace: float, state: Any, tables: Any, scratch: Any
     # The steepest of a piece of the curve is half as steep again as the whole.
     trail = min(trail, FASTEST_ROLL / tables.pendulum_time * TRAILING / (1.5 * pace))
     strike = STRIKE[kind] * share
+    turn = load_quat(state.foot_rotation_target[c, k])
+    wide = legs.foot_half_size[k, 0]
     for i in range(1, SAMPLES):
         gone = i / SAMPLES
         size = pitch_along(gone, 0.0, 0.0, 1.0, -1.0, 0.0)
-        if size > 0.0:
-            room = ROOM * room_below(c, k, gone, -toes, state, tables, scratch, env)
+        sole = sole_planned(c, k, gone, state, scratch)
+        hip = mix(load_vec3(scratch.hip[0]), load_vec3(scratch.hip[1]), gone)
+        if size > LEAST_SIZE:
+            room = ROOM * room_below(sole, turn, wide, -toes, env)
             trail = min(trail, math.asin(min(1.0, max(0.0, room / toes))) / size)
-        else:
-            room = ROOM * room_below(c, k, gone, heel, state, tables, scratch, env)
-            room += SUNK * legs.length[k]
-            strike = min(strike, math.asin(min(1.0, max(0.0, room / heel))) / -size)
+            trail *= reach_share(k, sole, turn, hip, trail * size, tables)
+        elif size < -LEAST_SIZE:
+            room = ROOM * room_below(sole, turn, wide, heel, env) + SUNK * legs.length[k]
+            strike = min(strike, math.asin(min(1.0, max(-1.0, room / heel))) / -size)
+            strike *= reach_share(k, sole, turn, hip, strike * size, tables)
     plan[0] = trail
-    plan[1] = TOES_DOWN[kind] * share - strike
+    # Less than none: over an edge the heel is lifted.
+    plan[1] = TOES_DOWN[kind] * share - max(strike, -TRAIL[kind])
     plan[2] = TOES_DOWN[kind] * share

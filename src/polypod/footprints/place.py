@@ -286,9 +286,7 @@ def judge_place(
     margin = foot.radius + settings.forbidden_margin * leg
     if is_forbidden_at(env, at_x, at_z, margin, ahead):
         return REJECTED, y
-    if env.mover_count > 0 and is_run_over(
-        env, request, settings, support, Vec3(at_x, y, at_z), ahead
-    ):
+    if env.mover_count > 0 and is_run_over(env, request, settings, support, Vec3(x, y, z), ahead):
         return REJECTED, y
     even = edge = leave = 1.0
     flat = env.terrain_range[0] == env.terrain_range[1]

@@ -21,7 +21,7 @@ from polypod.morphology.layout import arrange, back_to_front
 from polypod.morphology.limb import Limb, build_limb
 from polypod.morphology.names import find_node, split_leg
 from polypod.morphology.overrides import override_feet, override_limits
-from polypod.morphology.roll import find_roll
+from polypod.morphology.roll import find_rolls
 from polypod.morphology.skeleton import Skeleton, read_skeleton
 from polypod.morphology.stance import stand
 from polypod.morphology.table import joint_rows, leg_table, stand_upright
@@ -217,7 +217,7 @@ def _assemble(
     body_from_file = to_frame.copy()
     body_from_file[:3, 3] -= centre
     upright = stand_upright(skeleton, limbs, stance.sole)
-    rolls = [find_roll(skeleton, limbs[k], bool(upright[k])) for k in range(len(limbs))]
+    rolls = find_rolls(skeleton, limbs, upright, layout)
     legs = leg_table(skeleton, limbs, rolls, layout, stance.sole, rows, centre)
     nodes = [
         roll.toe_joint if roll.toe_joint >= 0 else limb.sole_node

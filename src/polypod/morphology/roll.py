@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from polypod.morphology.layout import Layout
 from polypod.morphology.limb import Limb
 from polypod.morphology.skeleton import Skeleton
 
@@ -45,6 +46,22 @@ class Roll:
 
 
 STIFF = Roll(FLAT, 0.0, -1)
+
+
+def find_rolls(
+    skeleton: Skeleton, limbs: list[Limb], upright: NDArray[np.bool_], layout: Layout
+) -> list[Roll]:
+    """Return how each foot rolls, partners alike whatever their skins' small differences."""
+    rolls = [
+        find_roll(skeleton, limb, bool(stands)) for limb, stands in zip(limbs, upright, strict=True)
+    ]
+    for k, other in enumerate(layout.partner):
+        if other > k and rolls[k].kind == rolls[other].kind:
+            forward = max(rolls[k].forward, rolls[other].forward)
+            if rolls[k].toe_joint < 0 and rolls[other].toe_joint < 0:
+                rolls[k] = replace(rolls[k], forward=forward)
+                rolls[other] = replace(rolls[other], forward=forward)
+    return rolls
 
 
 def find_roll(skeleton: Skeleton, limb: Limb, upright: bool) -> Roll:
