@@ -50,6 +50,7 @@ SLOWEST = 4.0  # and that cycle at most, leg pendulum times
 # A swing's roll is tried against the ground in so many moments, and keeps so much of the room.
 SAMPLES = 16
 ROOM = 0.8
+MOST_LIFT = 0.3  # rad by which a heel is lifted over an edge that it would meet
 LEAST_SIZE = 0.02  # of the roll there, or it says nothing
 # What the leg does not reach is shrunk so often, by so much; a folded leg keeps some of its range.
 SHRINKS = 5
@@ -250,5 +251,5 @@ def plan_roll(c: int, k: int, pace: float, state: Any, tables: Any, scratch: Any
             strike *= reach_share(k, sole, turn, hip, strike * size, tables)
     plan[0] = trail
     # Less than none: over an edge the heel is lifted.
-    plan[1] = TOES_DOWN[kind] * share - max(strike, -TRAIL[kind])
+    plan[1] = TOES_DOWN[kind] * share - max(strike, -MOST_LIFT)
     plan[2] = TOES_DOWN[kind] * share

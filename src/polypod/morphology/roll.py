@@ -56,11 +56,13 @@ def find_rolls(
         find_roll(skeleton, limb, bool(stands)) for limb, stands in zip(limbs, upright, strict=True)
     ]
     for k, other in enumerate(layout.partner):
-        if other > k and rolls[k].kind == rolls[other].kind:
-            forward = max(rolls[k].forward, rolls[other].forward)
-            if rolls[k].toe_joint < 0 and rolls[other].toe_joint < 0:
-                rolls[k] = replace(rolls[k], forward=forward)
-                rolls[other] = replace(rolls[other], forward=forward)
+        if other <= k or FLAT in (rolls[k].kind, rolls[other].kind):
+            continue
+        kind = max(rolls[k].kind, rolls[other].kind)
+        forward = max(rolls[k].forward, rolls[other].forward)
+        for leg in (k, int(other)):
+            own = rolls[leg].forward if rolls[leg].toe_joint >= 0 else forward
+            rolls[leg] = replace(rolls[leg], kind=kind, forward=own)
     return rolls
 
 
