@@ -105,6 +105,7 @@ def morphology() -> Morphology:
         roll_kind=np.zeros(6, np.int64),
         roll_pivot=REST_SOLES.copy(),
         toe_joint=np.full(6, -1, np.int64),
+        section_radius=np.tile([0.01, 0.01, 0.0], (6, 1)),
         side=np.array([1, -1, 1, -1, 1, -1], np.int64),
         row=np.array([0, 0, 1, 1, 2, 2], np.int64),
         upright=np.zeros(6, np.bool_),

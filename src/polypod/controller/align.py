@@ -7,7 +7,7 @@ from typing import Any
 from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
-from polypod.controller.ahead import hip_at
+from polypod.controller.rest import hip_at
 from polypod.controller.steering import PlanPose
 from polypod.environment.table import surface_at, surface_normal_at
 from polypod.footprints.settings import FootShape

@@ -3,84 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from polypod.body.reach import effector_world
-from polypod.body.support import body_rotation, foot_on_its_way
 from polypod.compute import kernel
-from polypod.controller.ahead import body_height_at, hip_at, level_height
 from polypod.controller.align import aligned_turn, ground_normal_under
+from polypod.controller.errand import Errand
+from polypod.controller.others import gather_other_legs, look_ahead
+from polypod.controller.rest import body_height_at, hip_at, level_height, rest_offset
 from polypod.controller.steering import PlanPose, predict
 from polypod.environment.table import shift_of, surface_at
 from polypod.footprints.plan import plan_step
 from polypod.footprints.settings import StepRequest, landing_time, placed_shape
-from polypod.math.quat import rotate, store_quat
-from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
+from polypod.math.quat import store_quat
+from polypod.math.vec3 import Vec3, load_vec3, normalized, store_vec3
 
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
 # Where no path is found, a lower one may pass under the leg's shortest reach: its sole then clears
 # uneven ground, but not the whole foot.
 STEP_SHARES = (1.0, 0.35)
-
-
-class Errand(NamedTuple):
-    """What a foot is sent to do."""
-
-    preferred: Vec3  # world, m: where it would land on the plan
-    seconds: float  # until touchdown
-    velocity: Vec3  # with which it sets out, m per unit of progress
-    launch: float  # its speed then over the mean speed
-    radius: float  # m about the preferred place in which a footprint is looked for
-
-
-@kernel
-def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
-    """Return the rest place of a sole, spacing included; body frame, m."""
-    stand = load_vec3(tables.legs.sole_stance[k])
-    return Vec3(stand.x + state.spacing[c, k, 0], stand.y, stand.z + state.spacing[c, k, 1])
-
-
-@kernel
-def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, settings: Any) -> Vec3:
-    """Return where a sole rests beside the body centre, world axes, m; only the plan counts.
-
-    The body leans with the slope, and the rest places with it; upright legs take part of the lean
-    back, so that the feet stay under the body.
-    """
-    turn = body_rotation(heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-    offset = rotate(turn, place_body(c, k, state, tables))
-    if tables.legs.upright[k]:
-        under = rotate(turn, Vec3(0.0, tables.legs.sole_stance[k, 1], 0.0))
-        offset = offset - Vec3(under.x, 0.0, under.z) * settings.upright_lean
-    return offset
-
-
-@kernel
-def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int:
-    """Write the segments of the other legs near foot `k` to the scratch; return their number.
-
-    Of each leg whose foot could be met, the last section before the sole counts, as it is now for
-    a standing foot and as it will be for a swinging one.
-    """
-    count = 0
-    legs = tables.legs
-    for other in range(state.swinging.shape[1]):
-        gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
-        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
-            continue
-        sole = foot_on_its_way(c, other, state)
-        if state.swinging[c, other]:
-            sole = load_vec3(state.foot_target[c, other])
-        knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
-        moved = sole - load_vec3(state.foot_reached[c, other])
-        store_vec3(plan.other_a[count], sole)
-        store_vec3(plan.other_b[count], knee + moved)
-        plan.other_radius[count] = 0.5 * max(
-            legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
-        )
-        count += 1
-    return count
 
 
 @kernel
@@ -138,6 +80,7 @@ def plan_foot(
     store_vec3(scratch.hip[1], hip)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
     others = gather_other_legs(c, k, state, tables, scratch.plan)
+    look_ahead(c, dt, pose, errand, stance, state, command, tables, settings, env, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
     found = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from polypod.morphology.girth import section_radii
 from polypod.morphology.layout import Layout
 from polypod.morphology.limb import Limb
 from polypod.morphology.roll import Roll
@@ -90,6 +91,9 @@ def leg_table(
     for k, roll in enumerate(rolls):
         if roll.toe_joint >= 0:
             pivot[k] = skeleton.position[roll.toe_joint] - centre
+    radius = np.zeros((count, most + 1))
+    for k, of_sections in enumerate(section_radii(skeleton, limbs)):
+        radius[k, : len(of_sections)] = of_sections
     return LegTable(
         joint_count=np.array([len(limb.joints) for limb in limbs], np.int64),
         joint=joint,
@@ -103,6 +107,7 @@ def leg_table(
         roll_kind=np.array([roll.kind for roll in rolls], np.int64),
         roll_pivot=pivot,
         toe_joint=np.array([row_of.get(roll.toe_joint, -1) for roll in rolls], np.int64),
+        section_radius=radius,
         side=layout.side,
         row=layout.row,
         upright=stand_upright(skeleton, limbs, middle_stance),

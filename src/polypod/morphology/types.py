@@ -45,6 +45,8 @@ class LegTable(NamedTuple):
     toe_joint: (
         IntArray  # [K] row of the joint there, whose toes stay flat; -1: none, it is the sole
     )
+    section_radius: FloatArray  # [K, M + 1] m, half the thickness from each point to the next, the
+    # last of an oriented foot from ankle to sole; 0 beyond
     side: IntArray  # [K] +1 left, -1 right, 0 in the middle
     row: IntArray  # [K] 0 for the hindmost legs, counted forward
     upright: BoolArray  # [K] the leg stands below its hip; False: it sprawls

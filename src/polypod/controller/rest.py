@@ -1,4 +1,4 @@
-"""Where hips and ground will be when the body is elsewhere: carried along the plane of the feet."""
+"""Where feet rest beside the body, and where body and hips would be elsewhere."""
 
 from __future__ import annotations
 
@@ -10,6 +10,28 @@ from polypod.compute import kernel
 from polypod.controller.steering import PlanPose
 from polypod.math.quat import rotate
 from polypod.math.vec3 import Vec3, load_vec3
+
+
+@kernel
+def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
+    """Return the rest place of a sole, spacing included; body frame, m."""
+    stand = load_vec3(tables.legs.sole_stance[k])
+    return Vec3(stand.x + state.spacing[c, k, 0], stand.y, stand.z + state.spacing[c, k, 1])
+
+
+@kernel
+def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, settings: Any) -> Vec3:
+    """Return where a sole rests beside the body centre, world axes, m; only the plan counts.
+
+    The body leans with the slope, and the rest places with it; upright legs take part of the lean
+    back, so that the feet stay under the body.
+    """
+    turn = body_rotation(heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    offset = rotate(turn, place_body(c, k, state, tables))
+    if tables.legs.upright[k]:
+        under = rotate(turn, Vec3(0.0, tables.legs.sole_stance[k, 1], 0.0))
+        offset = offset - Vec3(under.x, 0.0, under.z) * settings.upright_lean
+    return offset
 
 
 @kernel
