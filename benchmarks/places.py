@@ -32,6 +32,7 @@ RIGS = (
     Rig("ant"),
     Rig("pentapod"),
     Rig("wolf"),
+    Rig("biped"),
     Rig("q-spider", "quaternius/spider.glb", 0.5),
     Rig("fox", "khronos_fox/Fox.glb", 0.6),
     Rig("horse", "quaternius/horse.glb", 1.8),

@@ -10,17 +10,26 @@ Tuning, by symptom:
 * the creature leans into slopes too much, or its legs do: change `tilt_share`, `upright_lean`;
 * turns look like a turret's: lower `turn_rate`; it misses waypoints: raise it;
 * feet hesitate in front of obstacles: raise `wider_search` (costs planning time);
-* swing feet twitch when the heading changes: raise `replan_distance`.
+* swing feet twitch when the heading changes: raise `replan_distance`;
+* feet scrape or step too high: `step_height`; they start and stop too gently: `swing_profile`;
+* a foot's toes or heel hang in the air on steep ground: raise `foot_tilt`, then `ankle_range`;
+  ankles look broken there: lower `ankle_range`.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import namedtuple
 from dataclasses import dataclass
 from typing import Any
 
-from polypod.errors import SettingError
+from polypod.errors import SettingError, choices
+
+# Time profiles of a swing, by number for kernels and by name for people.
+PROFILE_BELL = 0
+PROFILE_CONSTANT = 1
+PROFILES = {"bell": PROFILE_BELL, "constant": PROFILE_CONSTANT}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,8 +45,13 @@ class Settings:
     turn_response: float = 2.5
     """Leg pendulum times in which most of an error of heading is made up."""
 
-    step_height: float = 0.14
-    """Clearance of a swing foot, leg lengths (BIOMECHANICS 2: 8-25 %)."""
+    step_height: float | None = None
+    """Clearance of a swing foot over level ground, leg lengths; None: by the creature's build, the
+    middle of what BIOMECHANICS 2 gives for it. A command's `step_height` is in metres and wins."""
+
+    swing_profile: str = "bell"
+    """Speed of a swing foot along its path: "bell", from rest to rest as animals do, or "constant",
+    P1's (P1 5.2)."""
 
     late_lift: float = 0.5
     """A foot that could not lift may do so until this share of its swing sector."""
@@ -81,21 +95,39 @@ class Settings:
     foot_align: float = 1.0
     """Share of the ground's tilt that a foot joint takes on in stance."""
 
-    foot_tilt: float = 0.6
+    foot_tilt: float = 0.9
     """Largest tilt of a foot joint to the ground, radians."""
+
+    ankle_range: float = 0.8
+    """Largest turn of a foot against its shank, away from the stance, radians: on ground that asks
+    for more a foot stands less flat."""
 
     def __post_init__(self) -> None:
         """Refuse what no walk can use."""
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
-            if not isinstance(value, int | float) or not 0.0 <= float(value) <= 1e3:
+            if field.name == "swing_profile":
+                if value not in PROFILES:
+                    raise SettingError(
+                        f"setting swing_profile is {value!r}; choose from {choices(PROFILES)}"
+                    )
+            elif value is None and field.default is None:
+                continue
+            elif not isinstance(value, int | float) or not 0.0 <= float(value) <= 1e3:
                 raise SettingError(
                     f"setting {field.name} is {value!r}; it must be a number from 0 to 1000"
                 )
 
     def values(self) -> Any:
-        """Return the settings as a named tuple of floats, as kernels read them."""
-        return SettingValues(*(float(value) for value in dataclasses.astuple(self)))
+        """Return the settings as a named tuple of floats, as kernels read them.
+
+        A profile is its number; what is left to the creature's build is NaN.
+        """
+        own = dataclasses.asdict(self)
+        own["swing_profile"] = PROFILES[self.swing_profile]
+        return SettingValues(
+            *(math.nan if value is None else float(value) for value in own.values())
+        )
 
 
 _names = [field.name for field in dataclasses.fields(Settings)]

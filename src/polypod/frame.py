@@ -107,7 +107,7 @@ def settle_creatures(
         )
         # The body goes as far as its legs allow, and the swinging feet with it.
         before = load_vec3(state.position[c])
-        settle_body(c, seconds, pose, height, state, tables, env, scratch)
+        settle_body(c, seconds, pose, height, state, command, tables, env, scratch)
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
         reach_feet(c, seconds, state, command, tables)

@@ -28,6 +28,10 @@ LEVEL_UPRIGHT = 0.5
 LEVEL_SPRAWLING = 0.15
 # A sprawler's feet go round what its body passes: the part of its track that is kept free.
 SPRAWLING_TRACK = 0.72
+# Clearance of swing feet, leg lengths: the middles of BIOMECHANICS 2, mammals 8-15 %, arthropods
+# 10-25 %. No dependence on size is known there.
+STEP_UPRIGHT = 0.115
+STEP_SPRAWLING = 0.175
 # Part of what a leg can fold in stance that a step on level ground may take.
 FOLDING = 0.4
 
@@ -41,6 +45,9 @@ class Scratch(NamedTuple):
     progress: FloatArray  # [K]
     sole: FloatArray  # [K, 3]
     turn: FloatArray  # [K, 4]
+    pitch: FloatArray  # [K, 3]
+    bend: FloatArray  # [K, 3]
+    hip: FloatArray  # [2, 3] of the foot just planned: now and at touchdown
     held: BoolArray  # [K]
     start: FloatArray  # [K]
     extent: FloatArray  # [K]
@@ -60,7 +67,8 @@ def make_tables(morphology: Morphology) -> HerdTables:
     legs = morphology.legs
     driven = np.zeros(len(morphology.joint_node), np.bool_)
     driven[legs.joint[legs.joint >= 0]] = True
-    driven[legs.foot_joint[legs.foot_joint >= 0]] = True
+    for oriented in (legs.foot_joint, legs.toe_joint):
+        driven[oriented[oriented >= 0]] = True
     leg_length = float(np.mean(legs.length))
     upright = bool(np.mean(legs.upright) > 0.5)
     track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
@@ -88,6 +96,13 @@ def folding_room(tables: HerdTables) -> float:
     return max(0.0, float(np.min(reach - ik.shortest)))
 
 
+def step_share(settings: Settings, tables: HerdTables) -> float:
+    """Return the clearance of swing feet, leg lengths: as set, or by the creature's build."""
+    if settings.step_height is not None:
+        return settings.step_height
+    return STEP_UPRIGHT if tables.upright else STEP_SPRAWLING
+
+
 class Herd:
     """All creatures of one morphology in a world; made by `World.add`.
 
@@ -102,22 +117,35 @@ class Herd:
         feet = len(morphology.foot_name)
         joints = len(morphology.joint_node)
         self.morphology = morphology
-        self.settings = settings
         self.plan_settings = PlanSettings()
         self.tables = make_tables(morphology)
         self.state = make_state(count, feet, joints)
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
         self.command.step_height = min(
-            settings.step_height * self.tables.leg_length, FOLDING * folding_room(self.tables)
+            step_share(settings, self.tables) * self.tables.leg_length,
+            FOLDING * folding_room(self.tables),
         )
         # What kernels take: the same arrays, by reference.
         self.kernel_tables = by_reference(self.tables)
         self.kernel_state = by_reference(self.state)
         self.kernel_command = by_reference(self.command.arrays)
-        self.kernel_settings = by_reference(settings.values())
+        self.settings = settings
         self.kernel_plan = by_reference(self.plan_settings)
         self._scratch: list[Scratch] = []
+
+    @property
+    def settings(self) -> Settings:
+        """How the walk is controlled; may be replaced between steps, and feet do not jump.
+
+        A step height in it counts when the herd is made; later `command.step_height` does.
+        """
+        return self._settings
+
+    @settings.setter
+    def settings(self, settings: Settings) -> None:
+        self._settings = settings
+        self.kernel_settings = by_reference(settings.values())
 
     @property
     def count(self) -> int:
@@ -145,6 +173,9 @@ class Herd:
                 progress=np.zeros(feet),
                 sole=np.zeros((feet, 3)),
                 turn=np.zeros((feet, 4)),
+                pitch=np.zeros((feet, 3)),
+                bend=np.zeros((feet, 3)),
+                hip=np.zeros((2, 3)),
                 held=np.zeros(feet, np.bool_),
                 start=np.zeros(feet),
                 extent=np.zeros(feet),

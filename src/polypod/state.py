@@ -83,11 +83,22 @@ class HerdState(NamedTuple):
     foot_target: FloatArray  # [C, K, 3] the footprint it is going to, or stands on
     foot_preferred: FloatArray  # [C, K, 3] where it would have liked to land
     foot_support: IntArray  # [C, K] obstacle stood on, -1: the ground
-    foot_rotation: FloatArray  # [C, K, 4] orientation of the foot joint, away from the rest
+    foot_rotation: FloatArray  # [C, K, 4] of the foot as it stands, away from the rest
+    foot_pitch: (
+        FloatArray  # [C, K, 3] rad by which the whole foot is turned about its sole, heel up
+    )
+    foot_bend: FloatArray  # [C, K, 3] rad by which its heel is up about the roll's pivot; of both
+    # also the rate, rad/s, and the input's low pass
+    roll_start: (
+        FloatArray  # [C, K, 4] at lift-off: pitch, bend, and after each its change, rad a swing
+    )
+    roll_plan: FloatArray  # [C, K, 3] pitch in swing: trailing, before touchdown, at touchdown; rad
+    swing_begun: FloatArray  # [C, K] share of the whole swing that was over when it was planned
     foot_rotation_start: FloatArray  # [C, K, 4] at lift-off
     foot_rotation_target: FloatArray  # [C, K, 4] at touchdown
     spacing: FloatArray  # [C, K, 2] body x, z: shift of the rest place in use, m
     path: PathRow  # the swing paths, axes [C, K]
+    path_profile: IntArray  # [C, K] polypod.paths.curve: the time profile on it
     path_launch: FloatArray  # [C, K] speed at the path's start over its mean speed
     plane_height: FloatArray  # [C] m, world: the plane through the feet, under the body centre
     slope: FloatArray  # [C, 2] of the plane through the feet: body z (pitch), body x (roll)
@@ -177,12 +188,14 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
                 "waiting",
                 "foot_support",
                 "path_launch",
+                "path_profile",
                 "residual",
                 "pull",
                 "reaching",
                 "landing_support",
                 "plan_clock",
                 "plan_seconds",
+                "swing_begun",
             ),
         ),
         (c, k),
@@ -209,6 +222,10 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         **turns,
         "position": (c, 3),
         "rotation": (c, 4),
+        "foot_pitch": (c, k, 3),
+        "foot_bend": (c, k, 3),
+        "roll_start": (c, k, 4),
+        "roll_plan": (c, k, 3),
         "spacing": (c, k, 2),
         "steered": (c, 7),
         "slope": (c, 2),

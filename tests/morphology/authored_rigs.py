@@ -273,3 +273,8 @@ def biped():
         rig.add(f"{side}ToeBase", f"{side}Foot", (x, 0.02, 0.1), box=toes)
         rig.add(f"{side}Toe_End", f"{side}ToeBase", (x, 0.02, 0.18), joint=False)
     return rig
+
+
+def middle_of_foot(legs, k):
+    """Return the middle of a foot's shape at rest [3]; the sole may lie ahead of it."""
+    return legs.sole_rest[k] - [0.0, 0.0, legs.foot_behind[k]]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from authored_rigs import Rig, arthropod, biped, quadruped
+from authored_rigs import Rig, arthropod, biped, middle_of_foot, quadruped
 
 from polypod.errors import RigError
 from polypod.morphology.load import load_rig
@@ -153,7 +153,7 @@ def test_a_bird_stands_on_all_its_toes(tmp_path):
     for toe in (1, 2, 3):
         assert morphology.joint_parent[morphology.joint_name.index(f"toe{toe}.L")] == foot
     # The toes reach 7 cm forward, 4 back and 3 to either side, plus the skin.
-    assert morphology.legs.sole_rest[0, 2] == pytest.approx(0.015, abs=1e-6)
+    assert middle_of_foot(morphology.legs, 0)[2] == pytest.approx(0.015, abs=1e-6)
     assert morphology.legs.foot_half_size[0] == pytest.approx([0.038, 0.063], abs=1e-6)
 
 

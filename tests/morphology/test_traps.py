@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from authored_rigs import Bone, Rig, arthropod, biped, matrix, quadruped
+from authored_rigs import Bone, Rig, arthropod, biped, matrix, middle_of_foot, quadruped
 
 from polypod.morphology.describe import extensions
 from polypod.morphology.load import load_rig
@@ -56,8 +56,8 @@ def test_a_plain_rig_is_read_as_authored(tmp_path):
     assert legs.upright.all()
     # The paw's box is 8 cm wide and 14 long, its middle 4 cm ahead of the ankle.
     assert legs.foot_half_size == pytest.approx(np.tile([0.04, 0.07], (4, 1)), abs=1e-6)
-    assert legs.sole_rest[0] == pytest.approx([0.15, -0.6, -0.36], abs=1e-6)
-    assert legs.sole_rest[3] == pytest.approx([-0.15, -0.6, 0.44], abs=1e-6)
+    assert middle_of_foot(legs, 0) == pytest.approx([0.15, -0.6, -0.36], abs=1e-6)
+    assert middle_of_foot(legs, 3) == pytest.approx([-0.15, -0.6, 0.44], abs=1e-6)
     section = np.hypot(0.28, 0.12)
     assert legs.length[0] == pytest.approx(
         section + np.hypot(0.27, 0.12) + np.hypot(0.05, 0.04), abs=1e-6
@@ -78,7 +78,7 @@ def test_a_detached_foot_is_found_at_the_mark_of_the_chains_tip(tmp_path):
         hip, foot = leg.split(":")
         assert joints_of(morphology, k) == [hip, hip.replace("Upper", "Lower")]
         assert morphology.joint_name[morphology.legs.foot_joint[k]] == foot
-    assert morphology.legs.sole_rest[0] == pytest.approx([0.15, -0.6, -0.36], abs=1e-6)
+    assert middle_of_foot(morphology.legs, 0) == pytest.approx([0.15, -0.6, -0.36], abs=1e-6)
 
 
 def test_naming_the_mark_finds_the_detached_foot_too(tmp_path):
@@ -164,7 +164,7 @@ def test_inverse_binds_may_live_in_any_space(tmp_path, space, pose):
     path = rig.write(tmp_path, turns=10.0, pose=POSES.get(pose), **SPACES[space])
     morphology = load_rig(path, legs=PAWS)
     assert_rest_as_authored(morphology, rig)
-    assert morphology.legs.sole_rest[0] == pytest.approx([0.15, -0.6, -0.36], abs=1e-5)
+    assert middle_of_foot(morphology.legs, 0) == pytest.approx([0.15, -0.6, -0.36], abs=1e-5)
     assert_sole_fixed_to_its_node(morphology)
 
 
@@ -217,8 +217,8 @@ def test_the_front_may_be_anywhere(tmp_path, turn, forward, named):
     names = None if named else [None] * len(rig.bones)
     morphology = load_rig(rig.write(tmp_path, names=names))
     legs = morphology.legs
-    assert legs.sole_rest[0] == pytest.approx([0.15, -0.6, -0.36], abs=1e-6)
-    assert legs.sole_rest[3] == pytest.approx([-0.15, -0.6, 0.44], abs=1e-6)
+    assert middle_of_foot(legs, 0) == pytest.approx([0.15, -0.6, -0.36], abs=1e-6)
+    assert middle_of_foot(legs, 3) == pytest.approx([-0.15, -0.6, 0.44], abs=1e-6)
     assert any(f"it faces {forward}" in guess for guess in morphology.guesses)
     other = load_rig(rig.write(tmp_path, names=names), forward=forward)
     assert other.joint_rest == pytest.approx(morphology.joint_rest)

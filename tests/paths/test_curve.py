@@ -7,12 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from polypod.config import PROFILE_BELL, PROFILE_CONSTANT
 from polypod.math.vec3 import Vec3
 from polypod.paths.curve import (
     LARGEST_START_SPEED,
     PATH_KNOTS,
-    PROFILE_BELL,
-    PROFILE_CONSTANT,
     path_point,
     path_row,
     path_store,

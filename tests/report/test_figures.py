@@ -433,6 +433,9 @@ def test_figures_do_not_depend_on_size_or_place():
     here, there = figures_of(recording), figures_of(large)
     for name in here:
         if name.endswith(("_of_leg", "_share", "_deg", "_variation", "leg_stretch", "duty")):
+            if here[name] is None:
+                assert there[name] is None, name
+                continue
             assert there[name] == pytest.approx(here[name], rel=1e-6, abs=1e-9), name
 
 

@@ -71,7 +71,7 @@ def highest_over(
     k: int, place: Vec3, foot_turn: Quat, pose: PlanPose, turn: Quat, tables: Any
 ) -> float:
     """Return the greatest height of the body at which a leg reaches a place for its sole."""
-    ankle = effector_world(k, tables, place, foot_turn)
+    ankle = effector_world(k, tables, place, foot_turn, 0.0)
     hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
     reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
     dx = pose.x + hip.x - ankle.x

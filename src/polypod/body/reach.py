@@ -6,7 +6,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.ik.reach import reach_shift
-from polypod.math.quat import Quat, load_quat, rotate, unrotate
+from polypod.math.quat import Quat, from_axis_angle, load_quat, rotate, unrotate
 from polypod.math.vec3 import Vec3, length, load_vec3
 
 PASSES = 16
@@ -20,24 +20,36 @@ LATE_PULL = 0.015
 
 
 @kernel
-def effector_world(k: int, tables: Any, sole_world: Vec3, foot_rotation: Quat) -> Vec3:
-    """Return where a leg's effector is when its sole is at `sole_world`."""
+def pitched(turn: Quat, pitch: float) -> Quat:
+    """Return a foot's rotation with its heel raised over its toes by `pitch`, rad."""
+    return turn * from_axis_angle(Vec3(1.0, 0.0, 0.0), pitch)
+
+
+@kernel
+def effector_world(k: int, tables: Any, sole_world: Vec3, foot_turn: Quat, bend: float) -> Vec3:
+    """Return where a leg's effector is when its sole is at `sole_world`.
+
+    `foot_turn` is the rotation of the sole, and of the toes where the foot has such a joint; from
+    the roll's pivot back the foot is turned by `bend` (rad) more.
+    """
     legs = tables.legs
     if legs.foot_joint[k] < 0:
         return sole_world
     ankle = load_vec3(legs.point_rest[k, legs.joint_count[k]])
-    return sole_world - rotate(foot_rotation, load_vec3(legs.sole_rest[k]) - ankle)
+    pivot = load_vec3(legs.roll_pivot[k])
+    pivot_world = sole_world - rotate(foot_turn, load_vec3(legs.sole_rest[k]) - pivot)
+    return pivot_world - rotate(pitched(foot_turn, bend), pivot - ankle)
 
 
 @kernel
 def foot_shift(
-    k: int, tables: Any, sole_world: Vec3, foot_turn: Quat, position: Vec3, turn: Quat
+    k: int, tables: Any, sole_world: Vec3, foot_turn: Quat, bend: float, position: Vec3, turn: Quat
 ) -> Vec3:
     """Return the least shift of a foot, world, that brings it within its leg's reach.
 
     `position` and `turn` are the body's pose; the shift is zero where the leg reaches the sole.
     """
-    target = effector_world(k, tables, sole_world, foot_turn)
+    target = effector_world(k, tables, sole_world, foot_turn, bend)
     return rotate(turn, reach_shift(tables.ik, k, unrotate(turn, target - position)))
 
 
@@ -58,8 +70,8 @@ def body_within_reach(
             if state.reaching[c, k]:
                 continue
             sole = load_vec3(scratch.sole[k])
-            foot_turn = load_quat(scratch.turn[k])
-            shift = foot_shift(k, tables, sole, foot_turn, position, turn)
+            foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
+            shift = foot_shift(k, tables, sole, foot_turn, scratch.bend[k, 0], position, turn)
             size = length(shift)
             if attempt == 0:
                 state.pull[c, k] = size

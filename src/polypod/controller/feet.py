@@ -6,31 +6,23 @@ import math
 from typing import Any
 
 from polypod.body.reach import effector_world
-from polypod.body.support import body_rotation
 from polypod.compute import kernel
+from polypod.controller.align import aligned_turn, ground_normal_under
 from polypod.controller.errand import Errand
 from polypod.controller.others import gather_other_legs, look_ahead
-from polypod.controller.rest import body_height_at, level_height, rest_offset
+from polypod.controller.rest import body_height_at, hip_at, level_height, rest_offset
 from polypod.controller.steering import PlanPose, predict
-from polypod.environment.table import shift_of, surface_at, surface_normal, surface_normal_at
+from polypod.environment.table import shift_of, surface_at
 from polypod.footprints.plan import plan_step
-from polypod.footprints.settings import StepRequest, landing_time
-from polypod.ik.foot import foot_rotation
-from polypod.math.quat import rotate, store_quat
+from polypod.footprints.settings import StepRequest, landing_time, placed_shape
+from polypod.math.quat import store_quat
 from polypod.math.vec3 import Vec3, load_vec3, normalized, store_vec3
 
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
-# Where no path is found, a lower one may pass under the leg's shortest reach.
+# Where no path is found, a lower one may pass under the leg's shortest reach: its sole then clears
+# uneven ground, but not the whole foot.
 STEP_SHARES = (1.0, 0.35)
-
-
-@kernel
-def hip_at(c: int, k: int, pose: PlanPose, state: Any, tables: Any) -> Vec3:
-    """Return a hip's place, world, when the body is at a predicted pose."""
-    turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-    centre = Vec3(pose.x, body_height_at(c, pose.x, pose.z, state), pose.z)
-    return centre + rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
 
 
 @kernel
@@ -64,8 +56,9 @@ def plan_foot(
 ) -> bool:  # fmt: skip
     """Plan a foot's way from where it is to the best place near the preferred one.
 
-    The path is left in the scratch; the target and the touchdown orientation go to the state.
-    Returns False where no valid pair of footprint and path was found; the state is then untouched.
+    The path and the hip's way are left in the scratch; the target and the touchdown orientation go
+    to the state. Returns False where no valid pair of footprint and path was found; the state is
+    then untouched.
     """
     legs = tables.legs
     preferred = errand.preferred
@@ -75,33 +68,36 @@ def plan_foot(
     middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
     leaving = predict(pose, touchdown + stance, c, command, tables, settings)
     start = load_vec3(state.foot[c, k])
-    turn = foot_rotation(
-        middle.heading,
-        surface_normal(env, preferred.x, preferred.z),
-        settings.foot_align,
-        settings.foot_tilt,
+    height, _ = surface_at(env, preferred.x, preferred.z, touchdown)
+    place = Vec3(preferred.x, height, preferred.z)
+    shape = placed_shape(
+        legs.foot_half_size[k, 0], legs.foot_half_size[k, 1], legs.foot_behind[k], middle.heading
     )
+    normal = ground_normal_under(env, shape, place, touchdown)
+    turn = aligned_turn(c, k, place, normal, landing, middle, state, tables, settings, scratch)
     hip = hip_at(c, k, landing, state, tables)
+    store_vec3(scratch.hip[0], hip_at(c, k, pose, state, tables))
+    store_vec3(scratch.hip[1], hip)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
     others = gather_other_legs(c, k, state, tables, scratch.plan)
     look_ahead(c, dt, pose, errand, stance, state, command, tables, settings, env, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
     found = False
-    for share in STEP_SHARES:
+    for attempt in range(len(STEP_SHARES)):
         request = StepRequest(
             start,
             errand.velocity,
             preferred,
-            hip_at(c, k, pose, state, tables),
+            load_vec3(scratch.hip[0]),
             hip,
             hip_at(c, k, leaving, state, tables),
-            effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn),
+            effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn, 0.0),
             tables.ik.shortest[k],
             tables.ik.longest[k],
             tables.ik.comfortable[k],
             legs.length[k],
-            command.step_height[c] * share,
+            command.step_height[c] * STEP_SHARES[attempt],
             legs.foot_half_size[k, 0],
             legs.foot_half_size[k, 1],
             middle.heading,
@@ -116,6 +112,9 @@ def plan_foot(
             level_height(c, preferred.x, preferred.z, state),
             stance,
             tables.level_weight,
+            int(settings.swing_profile),
+            legs.foot_behind[k],
+            attempt == 0,
         )
         found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
         if found:
@@ -124,12 +123,8 @@ def plan_foot(
         return False
     target = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
     seconds = landing_time(request)
-    turn = foot_rotation(
-        middle.heading,
-        surface_normal_at(env, target.x, target.z, seconds),
-        settings.foot_align,
-        settings.foot_tilt,
-    )
+    normal = ground_normal_under(env, shape, target, seconds)
+    turn = aligned_turn(c, k, target, normal, landing, middle, state, tables, settings, scratch)
     _, support = surface_at(env, target.x, target.z, seconds)
     state.landing_support[c, k] = support
     state.plan_clock[c, k] = 0.0

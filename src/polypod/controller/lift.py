@@ -9,8 +9,9 @@ from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.controller.feet import preferred_footprint
 from polypod.controller.rest import rest_offset
+from polypod.controller.roll import plan_roll
 from polypod.controller.steering import PlanPose
-from polypod.controller.swing import begin_swing, wished_progress
+from polypod.controller.swing import begin_swing, swing_pace, wished_progress
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
 from polypod.math.vec3 import Vec3, store_vec3
@@ -140,11 +141,14 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
 
 
 @kernel
-def leave_ground(c: int, k: int, begun: float, state: Any, scratch: Any) -> None:
+def leave_ground(
+    c: int, k: int, begun: float, state: Any, tables: Any, settings: Any, scratch: Any, env: Any
+) -> None:
     """Put a foot on the path just planned, whose time begins at the needle's phase `begun`."""
     state.swinging[c, k] = True
     state.airborne[c, k] = 0.0
-    begin_swing(c, k, begun, 0.0, state, scratch)
+    begin_swing(c, k, begun, 0.0, state, settings, scratch)
+    plan_roll(c, k, swing_pace(c, k, state), state, tables, scratch, env)
     state.waiting[c, k] = 0.0
 
 

@@ -8,6 +8,7 @@ from polypod.compute import kernel
 from polypod.controller.swing import drift, foot_along, swing_time_left
 from polypod.environment.movers import clear_of_movers, mover_depth
 from polypod.environment.table import surface
+from polypod.math.quat import load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Ways and standing feet are looked at in so many moments ahead.
@@ -86,10 +87,17 @@ def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
     velocity = Vec3(0.0, 0.0, 0.0)
     if support >= 0:
         velocity = load_vec3(env.velocity[support])
+    room = half + ROOM * leg
     over = load_vec3(state.foot[c, k]) + Vec3(0.0, ON_FOOT * leg, 0.0)
+    # About the sole, and about the middle of a foot that reaches back from it.
+    behind = Vec3(0.0, 0.0, -tables.legs.foot_behind[k])
+    middle = over + rotate(load_quat(state.foot_rotation[c, k]), behind)
     for j in range(MOMENTS + 1):
         ahead = horizon * j / MOMENTS
-        if mover_depth(env, over + velocity * ahead, ahead, support) > -(half + ROOM * leg):
+        way = velocity * ahead
+        if mover_depth(env, over + way, ahead, support) > -room:
+            return True
+        if behind.z < 0.0 and mover_depth(env, middle + way, ahead, support) > -room:
             return True
     return False
 

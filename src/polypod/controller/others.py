@@ -115,5 +115,7 @@ def look_ahead(
             sole = foot_later(c, leg, seconds, then, command, state, tables, settings, env)
             turned = load_quat(state.foot_rotation[c, leg])
             store_vec3(ahead.sole[moment, other], sole)
-            store_vec3(ahead.effector[moment, other], effector_world(leg, tables, sole, turned))
+            store_vec3(
+                ahead.effector[moment, other], effector_world(leg, tables, sole, turned, 0.0)
+            )
             ahead.posed[moment, other] = False

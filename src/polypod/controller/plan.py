@@ -55,7 +55,7 @@ def plan_feet(
         if plan_foot(
             c, k, dt, pose, errand, state, command, tables, settings, env, plan_settings, scratch
         ):
-            take_new_way(c, k, errand.launch, state, scratch)
+            take_new_way(c, k, errand.launch, state, settings, scratch)
     landing = note_standing(c, dt, state.turn[c], state, tables, settings, scratch)
     searching = True
     first = 0
@@ -86,6 +86,6 @@ def plan_feet(
         if plan_foot(
             c, k, dt, pose, errand, state, command, tables, settings, env, plan_settings, scratch
         ):
-            leave_ground(c, k, begun, state, scratch)
+            leave_ground(c, k, begun, state, tables, settings, scratch, env)
         else:
             wait_for_place(c, k, dt, errand.preferred, state, env)

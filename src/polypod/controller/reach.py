@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.reach import foot_shift
+from polypod.body.reach import foot_shift, pitched
 from polypod.compute import kernel
 from polypod.controller.rest import rest_offset
+from polypod.controller.roll import begin_roll
 from polypod.math.quat import load_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, store_vec3
 
@@ -40,6 +41,7 @@ def note_reaching(c: int, state: Any, command: Any, tables: Any, settings: Any) 
         store_vec3(state.foot_preferred[c, k], place)
         # What a put back leg begins with: a swing at its start, that wants a way.
         state.swing_progress[c, k] = 0.0
+        begin_roll(c, k, 1.0 / tables.pendulum_time, state)
         state.path_launch[c, k] = 0.0
         state.waiting[c, k] = math.inf
         state.landing_support[c, k] = -1
@@ -58,6 +60,7 @@ def reach_feet(c: int, dt: float, state: Any, command: Any, tables: Any) -> None
         step = (load_vec3(command.reach_place[c, k]) - foot) * share
         most = FASTEST_REACH * tables.legs.length[k] / tables.pendulum_time * dt
         foot = foot + step * (min(length(step), most) / max(length(step), 1e-12))
-        foot_turn = load_quat(state.foot_rotation[c, k])
-        foot = foot + foot_shift(k, tables, foot, foot_turn, position, turn)
+        foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+        bend = state.foot_bend[c, k, 0]
+        foot = foot + foot_shift(k, tables, foot, foot_turn, bend, position, turn)
         store_vec3(state.foot[c, k], foot)

@@ -1,4 +1,4 @@
-"""Where feet rest beside the body, and how high the body would be elsewhere."""
+"""Where feet rest beside the body, and where body and hips would be elsewhere."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
+from polypod.controller.steering import PlanPose
 from polypod.math.quat import rotate
 from polypod.math.vec3 import Vec3, load_vec3
 
@@ -50,3 +51,11 @@ def body_height_at(c: int, x: float, z: float, state: Any) -> float:
 def level_height(c: int, x: float, z: float, state: Any) -> float:
     """Return the height of the feet's plane at a place, world."""
     return body_height_at(c, x, z, state) - state.position[c, 1] + state.plane_height[c]
+
+
+@kernel
+def hip_at(c: int, k: int, pose: PlanPose, state: Any, tables: Any) -> Vec3:
+    """Return a hip's place, world, when the body is at a predicted pose."""
+    turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    centre = Vec3(pose.x, body_height_at(c, pose.x, pose.z, state), pose.z)
+    return centre + rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))

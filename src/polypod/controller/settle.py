@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift
+from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift, pitched
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
+from polypod.controller.roll import roll_standing, roll_swinging
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.environment.movers import clear_of_movers
 from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
+from polypod.morphology.roll import FLAT
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
@@ -75,7 +77,9 @@ def pushed_aside(
 
 
 @kernel
-def wish_feet(c: int, dt: float, state: Any, tables: Any, env: Any, scratch: Any) -> None:
+def wish_feet(
+    c: int, dt: float, state: Any, command: Any, tables: Any, env: Any, scratch: Any
+) -> None:
     """Write to the scratch where every foot should be at the end of the frame.
 
     A foot that catches up takes frames farther apart than it was planned with: where their chord
@@ -100,6 +104,9 @@ def wish_feet(c: int, dt: float, state: Any, tables: Any, env: Any, scratch: Any
             if env.mover_count > 0:
                 sole = pushed_aside(c, k, dt, before, sole, state, tables, env)
             scratch.progress[k] = progress
+            roll_swinging(c, k, dt, progress, state, scratch)
+        else:
+            roll_standing(c, k, dt, state, command, tables, scratch)
         store_vec3(scratch.sole[k], sole)
         store_quat(scratch.turn[k], turn)
 
@@ -108,8 +115,8 @@ def wish_feet(c: int, dt: float, state: Any, tables: Any, env: Any, scratch: Any
 def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratch: Any) -> bool:
     """Return whether every foot is within reach of a body pose, swinging ones as far as they may.
 
-    A swinging foot goes on along its path if its leg can follow, or else waits where it is: it is
-    noted in `scratch.held`. The feet themselves are not moved.
+    A swinging foot goes on along its path if its leg can follow, and a standing one rolls on. Else
+    they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved.
     """
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
@@ -117,23 +124,27 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         if state.reaching[c, k]:
             continue
         sole = load_vec3(scratch.sole[k])
-        foot_turn = load_quat(scratch.turn[k])
-        if length(foot_shift(k, tables, sole, foot_turn, position, turn)) <= 2.0 * tolerance:
+        foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
+        bend = scratch.bend[k, 0]
+        shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+        if length(shift) <= 2.0 * tolerance:
             continue
-        if not state.swinging[c, k]:
+        if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
             return False
         scratch.held[k] = True
         sole = load_vec3(state.foot[c, k])
-        foot_turn = load_quat(state.foot_rotation[c, k])
-        if length(foot_shift(k, tables, sole, foot_turn, position, turn)) > 2.0 * tolerance:
+        foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+        bend = state.foot_bend[c, k, 0]
+        shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+        if length(shift) > 2.0 * tolerance:
             return False
     return True
 
 
 @kernel
 def settle_body(
-    c: int, dt: float, pose: PlanPose, height: float, state: Any, tables: Any, env: Any,
-    scratch: Any,
+    c: int, dt: float, pose: PlanPose, height: float, state: Any, command: Any, tables: Any,
+    env: Any, scratch: Any,
 ) -> None:  # fmt: skip
     """Move the body as far toward its wished pose as its legs allow, and the swinging feet along.
 
@@ -152,7 +163,7 @@ def settle_body(
     angle = angle_of(turn * conjugate(turn_before))
     turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
     wished = Vec3(pose.x, height, pose.z)
-    wish_feet(c, dt, state, tables, env, scratch)
+    wish_feet(c, dt, state, command, tables, env, scratch)
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
     heading_before = state.heading[c]
     for share in ADVANCES:
@@ -182,6 +193,10 @@ def advance_swings(
 ) -> None:  # fmt: skip
     """Carry the swinging feet as far as `settle_body` found, and land those that arrived."""
     for k in range(state.swinging.shape[1]):
+        if not scratch.held[k]:
+            for i in range(3):
+                state.foot_pitch[c, k, i] = scratch.pitch[k, i]
+                state.foot_bend[c, k, i] = scratch.bend[k, i]
         if not state.swinging[c, k] or state.reaching[c, k]:
             continue
         state.airborne[c, k] += dt

@@ -80,7 +80,7 @@ def stand_body(
     height = wished_height(
         c, 1e6, pose, plane, turn, state, command, tables, settings, env, scratch
     )
-    wish_feet(c, 0.0, state, tables, env, scratch)
+    wish_feet(c, 0.0, state, command, tables, env, scratch)
     wished = Vec3(pose.x, height, pose.z)
     position = body_within_reach(c, state, tables, scratch, wished, turn)
     store_vec3(state.position[c], position)

@@ -10,7 +10,7 @@ from polypod.environment.table import shift_of
 from polypod.gait.needle import progress_since_lift, swing_progress
 from polypod.math.quat import Quat, load_quat, slerp
 from polypod.math.vec3 import Vec3, length_plan, load_vec3
-from polypod.paths.curve import PROFILE_BELL, path_point, path_row, path_velocity
+from polypod.paths.curve import path_point, path_row, path_velocity
 from polypod.paths.curve import swing_progress as progress_on_path
 
 # A late or replanned swing may run at most so many times as fast as its disk says.
@@ -25,7 +25,9 @@ HELD_UP = 0.2
 
 
 @kernel
-def begin_swing(c: int, k: int, begun: float, launch: float, state: Any, scratch: Any) -> None:
+def begin_swing(
+    c: int, k: int, begun: float, launch: float, state: Any, settings: Any, scratch: Any
+) -> None:
     """Put a foot on the path just planned, whose time begins at the needle's phase `begun`."""
     trial = scratch.path
     kept = path_row(state.path, c, k)
@@ -41,8 +43,17 @@ def begin_swing(c: int, k: int, begun: float, launch: float, state: Any, scratch
     for axis in range(4):
         state.foot_rotation_start[c, k, axis] = state.foot_rotation[c, k, axis]
     state.lift_phase[c, k] = begun
+    over = state.swing_begun[c, k]
+    state.swing_begun[c, k] = over + (1.0 - over) * state.swing_progress[c, k]
     state.swing_progress[c, k] = 0.0
     state.path_launch[c, k] = launch
+    state.path_profile[c, k] = int(settings.swing_profile)
+
+
+@kernel
+def along_path(c: int, k: int, progress: float, state: Any) -> tuple[float, float]:
+    """Return how far along its path a foot is at a share of its swing's time, and the rate."""
+    return progress_on_path(state.path_profile[c, k], progress, state.path_launch[c, k])
 
 
 @kernel
@@ -89,9 +100,7 @@ def way_on(c: int, k: int, preferred: Vec3, left: float, radius: float, state: A
     velocity and is launched at the present speed.
     """
     row = path_row(state.path, c, k)
-    along, rate = progress_on_path(
-        PROFILE_BELL, state.swing_progress[c, k], state.path_launch[c, k]
-    )
+    along, rate = along_path(c, k, state.swing_progress[c, k], state)
     # Per unit of the old swing; the new one takes the share that is left.
     share = 1.0 - state.swing_progress[c, k]
     velocity = path_velocity(row.point, row.tangent, row.fraction, row.count[0], along) * (
@@ -103,16 +112,16 @@ def way_on(c: int, k: int, preferred: Vec3, left: float, radius: float, state: A
 
 
 @kernel
-def take_new_way(c: int, k: int, launch: float, state: Any, scratch: Any) -> None:
+def take_new_way(c: int, k: int, launch: float, state: Any, settings: Any, scratch: Any) -> None:
     """Put a swinging foot on the path just planned, at the speed that it has.
 
     `launch` is what the path was planned with, by the length that was left of the old one.
     """
     row = path_row(state.path, c, k)
-    along, _ = progress_on_path(PROFILE_BELL, state.swing_progress[c, k], state.path_launch[c, k])
+    along, _ = along_path(c, k, state.swing_progress[c, k], state)
     speed = launch * max(1.0 - along, 0.1) * row.length[0]
     launch = speed / max(scratch.path.length[0], 1e-12)
-    begin_swing(c, k, state.needle[c], launch, state, scratch)
+    begin_swing(c, k, state.needle[c], launch, state, settings, scratch)
     state.waiting[c, k] = 0.0
 
 
@@ -148,7 +157,7 @@ def drift(c: int, k: int, along: float, state: Any, env: Any) -> Vec3:
 def foot_along(c: int, k: int, progress: float, state: Any, env: Any) -> tuple[Vec3, Quat]:
     """Return the sole and the foot's orientation at a share of the swing's time."""
     row = path_row(state.path, c, k)
-    along, _ = progress_on_path(PROFILE_BELL, progress, state.path_launch[c, k])
+    along, _ = along_path(c, k, progress, state)
     sole = path_point(row.point, row.tangent, row.fraction, row.count[0], along)
     if env.mover_count > 0:
         sole = sole + drift(c, k, along, state, env)

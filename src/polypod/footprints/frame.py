@@ -97,6 +97,9 @@ def request_in(frame: FootFrame, request: StepRequest) -> StepRequest:
         request.level_height,
         request.stance_seconds,
         request.level_weight,
+        request.profile,
+        request.foot_behind,
+        request.clears_whole,
     )
 
 

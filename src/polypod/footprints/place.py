@@ -267,25 +267,35 @@ def judge_place(
     y, support = surface_at(env, x, z, ahead)
     reach = reach_score(settings, request, Vec3(x, y, z))
     foot = foot_shape(request)
-    if reach < 0.0 or is_foot_wet(env, foot, x, z):
+    # The middle of the foot's shape, which is not always where its sole is.
+    at_x = x + foot.middle_x
+    at_z = z + foot.middle_z
+    if reach < 0.0 or is_foot_wet(env, foot, at_x, at_z):
         return REJECTED, y
     leg = request.leg_length
     margin = foot.radius + settings.forbidden_margin * leg
-    if is_forbidden_at(env, x, z, margin, ahead):
+    if is_forbidden_at(env, at_x, at_z, margin, ahead):
         return REJECTED, y
     if env.mover_count > 0 and is_run_over(env, request, settings, support, Vec3(x, y, z), ahead):
         return REJECTED, y
     even = edge = leave = 1.0
     flat = env.terrain_range[0] == env.terrain_range[1]
     wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
-    if not flat or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
+    if (
+        not flat
+        or obstacles_near(env, at_x - wide, at_z - wide, at_x + wide, at_z + wide, LOWEST, near) > 0
+    ):
+        middle, _ = surface_at(env, at_x, at_z, ahead)
         tolerance = settings.uneven * leg + settings.uneven_foot * foot.radius
-        even = even_score(env, foot, settings.toe * leg, settings.slope, tolerance, x, y, z, ahead)
+        even = even_score(
+            env, foot, settings.toe * leg, settings.slope, tolerance, at_x, middle, at_z, ahead
+        )
         if even < 0.0:
             return REJECTED, y
         edge = edge_score(
-            env, foot, settings.edge * leg, settings.slope, settings.drop * leg, x, y, z, ahead
-        )
+            env, foot, settings.edge * leg, settings.slope, settings.drop * leg, at_x, middle,
+            at_z, ahead,
+        )  # fmt: skip
     course_x = request.hip_end_of_stance.x - request.hip_touchdown.x
     course_z = request.hip_end_of_stance.z - request.hip_touchdown.z
     step = math.hypot(course_x, course_z)

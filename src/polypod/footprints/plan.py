@@ -21,7 +21,13 @@ from polypod.footprints.scratch import (
     PlanScratch,
     make_plan_scratch,
 )
-from polypod.footprints.settings import DETOUR, PlanSettings, StepRequest, landing_time
+from polypod.footprints.settings import (
+    DETOUR,
+    PlanSettings,
+    StepRequest,
+    foot_shape,
+    landing_time,
+)
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 from polypod.paths.curve import PathRow, copy_path
 from polypod.paths.score import path_score_bound, plan_bending
@@ -55,11 +61,13 @@ def fill_window(
         n = MAP_CELLS
         cell = side / MAP_CELLS
     toe = settings.toe * request.leg_length
+    # The map of where the middle of the foot's shape may be, then told by where its sole is.
+    shape = foot_shape(request)
     fill_maps(
         env,
         window,
-        0.5 * (low_x + high_x),
-        0.5 * (low_z + high_z),
+        0.5 * (low_x + high_x) + shape.middle_x,
+        0.5 * (low_z + high_z) + shape.middle_z,
         cell,
         n,
         request.foot_half_x + toe,
@@ -67,6 +75,8 @@ def fill_window(
         request.foot_yaw,
         landing_time(request),
     )
+    window.place[0] -= shape.middle_x
+    window.place[1] -= shape.middle_z
 
 
 @kernel

@@ -66,13 +66,15 @@ class PlanSettings(NamedTuple):
 
 
 class FootShape(NamedTuple):
-    """The sole's shape as it lies in the world: half extents in m, and its turn."""
+    """A foot's shape as it lies in the world: half extents in m, its turn, and where it lies."""
 
     half_x: float
     half_z: float
     sine: float  # of the heading
     cosine: float
     radius: float  # m, the larger half extent
+    middle_x: float  # m, from the sole to the middle of the shape
+    middle_z: float
 
 
 class StepRequest(NamedTuple):
@@ -92,9 +94,9 @@ class StepRequest(NamedTuple):
     reach_comfort_max: float
     leg_length: float
     step_height: float  # m, the arc's height over level ground
-    foot_half_x: float  # m, half extents of the sole's shape in its own axes
+    foot_half_x: float  # m, half extents of the foot's shape in its own axes
     foot_half_z: float
-    foot_yaw: float  # heading of the sole's shape
+    foot_yaw: float  # heading of the foot's shape
     body_position: Vec3  # predicted at touchdown
     side: Vec3  # unit, outward from the body in plan; zero for a leg in the middle
     swing_seconds: float
@@ -106,6 +108,9 @@ class StepRequest(NamedTuple):
     level_height: float = 0.0  # m, where the other feet stand, under the preferred place
     stance_seconds: float = 0.0  # how long the foot will stand
     level_weight: float = 0.0  # what a place at that height is worth, beside the settings' weights
+    profile: int = 0  # polypod.paths.curve: the time profile on the path
+    foot_behind: float = 0.0  # m, from the sole back to the middle of the foot's shape
+    clears_whole: bool = False  # its whole shape keeps clear of uneven ground, not the sole alone
 
 
 @kernel
@@ -118,12 +123,17 @@ def landing_time(request: StepRequest) -> float:
 
 
 @kernel
+def placed_shape(half_x: float, half_z: float, behind: float, yaw: float) -> FootShape:
+    """Return a foot's shape for a heading, its middle `behind` metres behind its sole."""
+    sine = math.sin(yaw)
+    cosine = math.cos(yaw)
+    radius = max(half_x, half_z)
+    return FootShape(half_x, half_z, sine, cosine, radius, -behind * sine, -behind * cosine)
+
+
+@kernel
 def foot_shape(request: StepRequest) -> FootShape:
     """Return the shape of the foot that is asked about."""
-    return FootShape(
-        request.foot_half_x,
-        request.foot_half_z,
-        math.sin(request.foot_yaw),
-        math.cos(request.foot_yaw),
-        max(request.foot_half_x, request.foot_half_z),
+    return placed_shape(
+        request.foot_half_x, request.foot_half_z, request.foot_behind, request.foot_yaw
     )

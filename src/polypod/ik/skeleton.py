@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import effector_world
+from polypod.body.reach import effector_world, pitched
 from polypod.compute import kernel
 from polypod.ik.solve import solve_leg
 from polypod.math.quat import Quat, load_quat, rotate, store_quat, unrotate
@@ -17,9 +17,10 @@ def pose_leg_of(
 ) -> None:
     """Pose one leg so that its sole is where it was planned; note where it really is."""
     legs = tables.legs
-    foot_turn = load_quat(state.foot_rotation[c, k])
+    foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+    bend = state.foot_bend[c, k, 0]
     sole = load_vec3(state.foot[c, k])
-    effector = effector_world(k, tables, sole, foot_turn)
+    effector = effector_world(k, tables, sole, foot_turn, bend)
     target_body = unrotate(turn, effector - position)
     solve_leg(tables.ik, k, target_body, scratch.leg_rotation, scratch.leg_point)
     count = legs.joint_count[k]
@@ -33,10 +34,16 @@ def pose_leg_of(
     reached = position + rotate(turn, load_vec3(scratch.leg_point[count]))
     foot_joint = legs.foot_joint[k]
     if foot_joint >= 0:
+        heel_turn = pitched(foot_turn, bend)
         store_vec3(state.joint_position[c, foot_joint], reached)
-        store_quat(state.joint_rotation[c, foot_joint], foot_turn)
-        ankle_rest = load_vec3(legs.point_rest[k, count])
-        reached = reached + rotate(foot_turn, load_vec3(legs.sole_rest[k]) - ankle_rest)
+        store_quat(state.joint_rotation[c, foot_joint], heel_turn)
+        pivot_rest = load_vec3(legs.roll_pivot[k])
+        reached = reached + rotate(heel_turn, pivot_rest - load_vec3(legs.point_rest[k, count]))
+        toe_joint = legs.toe_joint[k]
+        if toe_joint >= 0:
+            store_vec3(state.joint_position[c, toe_joint], reached)
+            store_quat(state.joint_rotation[c, toe_joint], foot_turn)
+        reached = reached + rotate(foot_turn, load_vec3(legs.sole_rest[k]) - pivot_rest)
     store_vec3(state.foot_reached[c, k], reached)
     state.residual[c, k] = distance(reached, sole)
 

@@ -11,8 +11,9 @@ from polypod.ik.aim import hip_for, plane_frame, plane_normal
 from polypod.ik.fold import fold_for_reach
 from polypod.ik.hinges import Hinges, find_hinges, plan_direction
 from polypod.ik.reach import direction_strain, reach_shift
+from polypod.ik.solve import pose_leg
 from polypod.ik.types import IkTable
-from polypod.math.quat import rotate
+from polypod.math.quat import load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3
 from polypod.morphology.types import FloatArray, LegTable
 from polypod.reference import by_reference
@@ -116,6 +117,7 @@ def _empty_table(legs: LegTable) -> IkTable:
         effector_stance=legs.sole_stance - legs.sole_rest + effector_rest,
         fold_stance=per_leg.copy(),
         hip_stance=np.tile([0.0, 0.0, 0.0, 1.0], (leg_count, 1)),
+        shank_stance=np.tile([0.0, 0.0, 0.0, 1.0], (leg_count, 1)),
         limb_axis=np.zeros((leg_count, 3)),
         flexion_axis=np.zeros((leg_count, 3)),
         hip_limit=np.zeros((leg_count, 3)),
@@ -250,6 +252,11 @@ def _fill_stance(ik: IkTable, kernel_ik: IkTable, leg: int) -> None:
     frame = plane_frame(direction, plane_normal(kernel_ik, leg, direction * reach))
     ik.fold_stance[leg] = fold
     ik.hip_stance[leg] = hip_for(kernel_ik, leg, chord, direction)
+    most = ik.bone_rest.shape[1]
+    rotation = np.zeros((most, 4))
+    hip = load_quat(ik.hip_stance[leg])
+    pose_leg(kernel_ik, leg, hip, fold, rotation, np.zeros((most + 1, 3)))
+    ik.shank_stance[leg] = rotation[ik.joint_count[leg] - 1]
     ik.limb_axis[leg] = direction
     ik.flexion_axis[leg] = rotate(frame, Vec3(0.0, 1.0, 0.0))
 

@@ -39,6 +39,7 @@ class IkTable(NamedTuple):
     effector_stance: FloatArray  # [K, 3] m, the effector's place in stance, body frame
     fold_stance: FloatArray  # [K]
     hip_stance: FloatArray  # [K, 4] the hip's rotation in stance
+    shank_stance: FloatArray  # [K, 4] that of the last joint before the effector
     limb_axis: FloatArray  # [K, 3] unit, hip to effector in stance: twist turns about it
     flexion_axis: FloatArray  # [K, 3] unit, at right angles to limb_axis, in stance
     hip_limit: FloatArray  # [K, 3] rad: flexion, sideways, twist, about the stance

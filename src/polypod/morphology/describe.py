@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from polypod.morphology.roll import FLAT, HEEL_FIRST
 from polypod.morphology.types import Morphology
 
 SIDES = {1: "left", 0: "middle", -1: "right"}
@@ -58,7 +59,8 @@ def _legs(morphology: Morphology) -> str:
             f"{legs.length[k]:.4g} long, sections {' '.join(f'{s:.4g}' for s in sections)}",
             f"    {chain}; {end}",
             f"    extended {at_rest:.0%} at rest, {in_stance:.0%} in stance; sole at "
-            f"{_place(legs.sole_stance[k])}, {_size_of_foot(legs.foot_half_size[k])}",
+            f"{_place(legs.sole_stance[k])}, {_size_of_foot(legs.foot_half_size[k])}"
+            f"{_roll_of_foot(morphology, k)}",
         ]
     return "\n".join(lines)
 
@@ -130,6 +132,17 @@ def _place(place: np.ndarray[tuple[int], np.dtype[np.float64]]) -> str:
 
 def _size_of_foot(half_size: np.ndarray[tuple[int], np.dtype[np.float64]]) -> str:
     return f"{2.0 * half_size[0]:.3g} wide, {2.0 * half_size[1]:.3g} long"
+
+
+def _roll_of_foot(morphology: Morphology, k: int) -> str:
+    legs = morphology.legs
+    if legs.roll_kind[k] == FLAT:
+        return ""
+    first = "heel" if legs.roll_kind[k] == HEEL_FIRST else "toes"
+    about = "the front of its sole"
+    if legs.toe_joint[k] >= 0:
+        about = joint_label(morphology, int(legs.toe_joint[k]))
+    return f", lands {first} first and rolls off about {about}"
 
 
 def _count(number: int, word: str) -> str:

@@ -21,9 +21,10 @@ from polypod.morphology.layout import arrange, back_to_front
 from polypod.morphology.limb import Limb, build_limb
 from polypod.morphology.names import find_node, split_leg
 from polypod.morphology.overrides import override_feet, override_limits
+from polypod.morphology.roll import find_rolls
 from polypod.morphology.skeleton import Skeleton, read_skeleton
 from polypod.morphology.stance import stand
-from polypod.morphology.table import joint_rows, leg_table
+from polypod.morphology.table import joint_rows, leg_table, stand_upright
 from polypod.morphology.trunk import body_centre, find_spine, measure_trunk
 from polypod.morphology.types import BodyTable, Morphology, RigSource
 from polypod.rigs.gltf import GltfDocument
@@ -215,7 +216,13 @@ def _assemble(
     spine, spine_guess = _spine(skeleton, limbs, hip, creature, row_of)
     body_from_file = to_frame.copy()
     body_from_file[:3, 3] -= centre
-    nodes = np.array([limb.sole_node for limb in limbs], np.int64)
+    upright = stand_upright(skeleton, limbs, stance.sole)
+    rolls = find_rolls(skeleton, limbs, upright, layout)
+    legs = leg_table(skeleton, limbs, rolls, layout, stance.sole, rows, centre)
+    nodes = [
+        roll.toe_joint if roll.toe_joint >= 0 else limb.sole_node
+        for limb, roll in zip(limbs, rolls, strict=True)
+    ]
     return Morphology(
         name=Path(creature.file).stem,
         source=RigSource(skeleton.document, body_from_file, skeleton.rest_file[rows].copy()),
@@ -223,10 +230,10 @@ def _assemble(
         joint_node=np.array(rows, np.int64),
         joint_parent=parents,
         joint_rest=skeleton.position[rows] - centre,
-        legs=leg_table(skeleton, limbs, layout, stance.sole, rows, centre),
+        legs=legs,
         foot_name=tuple(skeleton.label(limb.foot) for limb in limbs),
-        foot_node=nodes,
-        foot_offset=_in_nodes(skeleton, to_frame, nodes, sole),
+        foot_node=np.array(nodes, np.int64),
+        foot_offset=_in_nodes(skeleton, to_frame, np.array(nodes), legs.sole_rest + centre),
         spine=spine,
         body=BodyTable(
             thickness=creature.thickness or min(trunk.thickness, 0.9 * body_height),

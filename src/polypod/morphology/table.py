@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from polypod.morphology.girth import section_radii
 from polypod.morphology.layout import Layout
 from polypod.morphology.limb import Limb
+from polypod.morphology.roll import Roll
 from polypod.morphology.skeleton import Skeleton
 from polypod.morphology.types import LegTable
 
@@ -46,11 +47,20 @@ def joint_rows(skeleton: Skeleton, limbs: list[Limb]) -> tuple[list[int], IntArr
     return rows, np.array([row_of[carrier[node]] for node in rows], np.int64)
 
 
+def stand_upright(
+    skeleton: Skeleton, limbs: list[Limb], middle_stance: FloatArray
+) -> NDArray[np.bool_]:
+    """Return which legs [K] stand with the middle of their foot below their hip."""
+    away = middle_stance - skeleton.position[[limb.joints[0] for limb in limbs]]
+    return np.asarray(np.hypot(away[:, 0], away[:, 2]) < -UPRIGHT * away[:, 1])
+
+
 def leg_table(
     skeleton: Skeleton,
     limbs: list[Limb],
+    rolls: list[Roll],
     layout: Layout,
-    sole_stance: FloatArray,
+    middle_stance: FloatArray,
     rows: list[int],
     centre: FloatArray,
 ) -> LegTable:
@@ -59,8 +69,9 @@ def leg_table(
     Args:
         skeleton: metres, facing +Z.
         limbs: K legs.
+        rolls: how their feet roll.
         layout: their sides and rows.
-        sole_stance: [K, 3] in the skeleton's frame.
+        middle_stance: [K, 3] the middles of the feet's shapes, in the skeleton's frame.
         rows: nodes of the joint table.
         centre: [3] the body centre in the skeleton's frame.
     """
@@ -74,23 +85,32 @@ def leg_table(
         point[k, :turned] = skeleton.position[list(limb.joints)] - centre
         # Unused places repeat the effector, so that they are finite and far from nothing.
         point[k, turned:] = limb.effector - centre
+    forward = np.array([[0.0, 0.0, roll.forward] for roll in rolls])
+    sole_rest = np.array([limb.sole.place for limb in limbs]) + forward - centre
+    pivot = sole_rest.copy()
+    for k, roll in enumerate(rolls):
+        if roll.toe_joint >= 0:
+            pivot[k] = skeleton.position[roll.toe_joint] - centre
     radius = np.zeros((count, most + 1))
     for k, of_sections in enumerate(section_radii(skeleton, limbs)):
         radius[k, : len(of_sections)] = of_sections
-    away = sole_stance - skeleton.position[[limb.joints[0] for limb in limbs]]
     return LegTable(
         joint_count=np.array([len(limb.joints) for limb in limbs], np.int64),
         joint=joint,
         foot_joint=np.array([row_of.get(limb.foot_joint, -1) for limb in limbs], np.int64),
         point_rest=point,
-        sole_rest=np.array([limb.sole.place for limb in limbs]) - centre,
-        sole_stance=sole_stance - centre,
+        sole_rest=sole_rest,
+        sole_stance=middle_stance + forward - centre,
         length=np.array([limb.length for limb in limbs]),
         foot_half_size=np.array([limb.sole.half_size for limb in limbs]),
+        foot_behind=forward[:, 2].copy(),
+        roll_kind=np.array([roll.kind for roll in rolls], np.int64),
+        roll_pivot=pivot,
+        toe_joint=np.array([row_of.get(roll.toe_joint, -1) for roll in rolls], np.int64),
         section_radius=radius,
         side=layout.side,
         row=layout.row,
-        upright=np.hypot(away[:, 0], away[:, 2]) < -UPRIGHT * away[:, 1],
+        upright=stand_upright(skeleton, limbs, middle_stance),
         bend_limit=np.full((count, most, 2), np.nan),
         hip_limit=np.full((count, 3), np.nan),
     )

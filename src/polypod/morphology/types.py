@@ -38,7 +38,13 @@ class LegTable(NamedTuple):
     sole_rest: FloatArray  # [K, 3] body frame, m
     sole_stance: FloatArray  # [K, 3] body frame, m: where the sole is when the creature stands
     length: FloatArray  # [K] m, hip to sole along the chain
-    foot_half_size: FloatArray  # [K, 2] m, half extents of the sole's shape along body x and z
+    foot_half_size: FloatArray  # [K, 2] m, half extents of the foot's shape along body x and z
+    foot_behind: FloatArray  # [K] m, from the sole back to the middle of that shape
+    roll_kind: IntArray  # [K] polypod.morphology.roll: FLAT, TOE_FIRST or HEEL_FIRST
+    roll_pivot: FloatArray  # [K, 3] body frame, m, at rest: about it the heel rises
+    toe_joint: (
+        IntArray  # [K] row of the joint there, whose toes stay flat; -1: none, it is the sole
+    )
     section_radius: FloatArray  # [K, M + 1] m, half the thickness from each point to the next, the
     # last of an oriented foot from ankle to sole; 0 beyond
     side: IntArray  # [K] +1 left, -1 right, 0 in the middle

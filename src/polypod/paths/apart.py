@@ -20,7 +20,7 @@ from polypod.ik.types import IkTable
 from polypod.math.quat import load_quat, rotate, unrotate
 from polypod.math.segments import segment_gap
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
-from polypod.paths.curve import PROFILE_BELL, PathRow, path_point, swing_progress
+from polypod.paths.curve import PathRow, path_point, swing_progress
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -225,7 +225,7 @@ def path_factor(ahead: LegsAhead, request: StepRequest, path: PathRow) -> float:
     for moment in range(MOMENTS.shape[0]):
         along = 1.0
         if MOMENTS[moment] < 1.0:
-            along, _ = swing_progress(PROFILE_BELL, MOMENTS[moment], request.launch)
+            along, _ = swing_progress(request.profile, MOMENTS[moment], request.launch)
         sole = path_point(path.point, path.tangent, path.fraction, path.count[0], along)
         room = room_beside(ahead, moment, request, sole, room)
     return factor_of(room, most)

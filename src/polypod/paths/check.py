@@ -17,7 +17,6 @@ from polypod.math.hermite import hermite
 from polypod.math.vec3 import distance, load_vec3, mix
 from polypod.paths.curve import (
     PATH_KNOTS,
-    PROFILE_BELL,
     PathRow,
     path_point,
     seconds_ahead,
@@ -121,7 +120,7 @@ def chords_clear(
     before = load_vec3(path.point[0])
     for frame in range(1, frames + 1):
         time = min(frame * request.frame_seconds / request.swing_seconds, 1.0)
-        along, _ = swing_progress(PROFILE_BELL, time, request.launch)
+        along, _ = swing_progress(request.profile, time, request.launch)
         after = path_point(path.point, path.tangent, path.fraction, PATH_KNOTS, along)
         for i in range(1, CHORD_SAMPLES):
             place = mix(before, after, i / CHORD_SAMPLES)

@@ -12,16 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.compute import kernel
+from polypod.config import PROFILE_CONSTANT
 from polypod.footprints.settings import StepRequest
 from polypod.math.hermite import hermite, hermite_slope
 from polypod.math.vec3 import Vec3, load_vec3
 
 PATH_KNOTS = 32
 HALVINGS = 8  # of the swing's time
-# Time profiles of a swing, by number for kernels and by name for people.
-PROFILE_BELL = 0
-PROFILE_CONSTANT = 1
-PROFILES = {"bell": PROFILE_BELL, "constant": PROFILE_CONSTANT}
 # Above this start speed the bell would have to run backwards before it rests.
 LARGEST_START_SPEED = 2.5
 
@@ -139,13 +136,13 @@ def swing_progress(profile: int, time: float, start_speed: float) -> tuple[float
 
 
 @kernel
-def swing_time(progress: float, start_speed: float) -> float:
-    """Return the time at which a bell-shaped swing has come so far; both are shares."""
+def swing_time(profile: int, progress: float, start_speed: float) -> float:
+    """Return the time at which a swing has come so far; both are shares."""
     low = 0.0
     high = 1.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
-        reached, _ = swing_progress(PROFILE_BELL, middle, start_speed)
+        reached, _ = swing_progress(profile, middle, start_speed)
         if reached < progress:
             low = middle
         else:
@@ -159,7 +156,7 @@ def seconds_ahead(request: StepRequest, progress: float) -> float:
 
     Obstacles are already where they are at the end of this frame, and feet where they were before.
     """
-    time = swing_time(progress, request.launch) * request.swing_seconds
+    time = swing_time(request.profile, progress, request.launch) * request.swing_seconds
     return max(time - request.frame_seconds, 0.0)
 
 

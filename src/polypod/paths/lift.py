@@ -26,6 +26,8 @@ SHORTEST = 0.05
 LATEST_START = 0.8 * math.pi
 # Elevations are sampled along the path at most this far apart, leg lengths.
 SAMPLE = 0.02
+# Feet with larger half extents clear the ground with all of their shape, leg lengths.
+BROAD = 0.03
 # A path that starts moving turns from that direction to its own within this share of its length.
 BLEND = 0.35
 
@@ -135,7 +137,7 @@ def require(
     full = foot.radius + settings.toe * leg
     barred = full + settings.forbidden_margin * leg
     clearance = settings.clearance * leg
-    wide = 1.5 * full + settings.forbidden_margin * leg
+    wide = 1.5 * full + settings.forbidden_margin * leg + request.foot_behind
     x0 = x1 = lift.knot[0, 0]
     z0 = z1 = lift.knot[0, 1]
     lowest = lift.arc[0]
@@ -148,6 +150,8 @@ def require(
     count = obstacles_near(env, x0 - wide, z0 - wide, x1 + wide, z1 + wide, lowest, lift.near)
     listed = min(count, lift.near.shape[0])
     level = env.terrain_range[0] == env.terrain_range[1]
+    # A long foot on uneven ground: what its sole passes over is not all that it must clear.
+    broad = not level and request.clears_whole and foot.radius > BROAD * leg
     total = lift.station[LAST]
     stretch = 2.0 * full + clearance
     for k in range(1, PATH_KNOTS):
@@ -167,12 +171,14 @@ def require(
             met = 2
             if count == listed:
                 met = meets_near(env, lift.near, count, x, z, wide, arc - clearance)
-            if met == 2 and is_forbidden_at(env, x, z, barred * share, ahead):
+            at_x = x + foot.middle_x * share
+            at_z = z + foot.middle_z * share
+            if met == 2 and is_forbidden_at(env, at_x, at_z, barred * share, ahead):
                 return False
-            if met > 0:
-                height = foot_top(env, foot, x, z, full * share - foot.radius, ahead)
-            else:
-                height = ground_height(env, x, z)
+            height = ground_height(env, x, z)
+            if met > 0 or broad:
+                top_there = foot_top(env, foot, at_x, at_z, full * share - foot.radius, ahead)
+                height = max(height, top_there)
             top = max(top, height + clearance * share)
         lift.ground[k] = top
     lift.need[0] = lift.arc[0]

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from polypod.environment.table import EnvironmentTable
 from polypod.report.apart import apart_figures
 from polypod.report.arrays import FloatArray
+from polypod.report.contact import contact_figures
 from polypod.report.files import replacing
 from polypod.report.ground import Ground
 from polypod.report.joints import joint_figures
@@ -55,6 +56,7 @@ def measure(
         "leg_length_m": float(recording.morphology.legs.length.mean()),
         **way_figures(recording, commanded_distance_m),
         **stance_figures(recording, ground),
+        **contact_figures(recording, ground),
         **swing_figures(recording, ground),
         **forbidden_figures(recording, ground),
         **joint_figures(recording, joint_limits),

@@ -53,6 +53,8 @@ YARDSTICKS = (
     _most("duty_error", 0.06, "a duty factor is {} off the gait's"),
     _most("phase_error", 0.05, "a footfall is {} of a stride off the gait's"),
     Limit("swing_apex_of_leg", 0.08, 0.35, "swings rise by {} leg lengths"),
+    _most("foot_tilt_deg", 5.0, "feet stand {} degrees from flat on the ground"),
+    _most("foot_sunk_of_leg", 1e-2, "a standing foot's shape is {} leg lengths in the ground"),
     _most("legs_touching_share", 1e-3, "legs touch each other in {} of the frames"),
 )
 
