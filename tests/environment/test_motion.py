@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from polypod.environment import Environment, Obstacle, Terrain
 from polypod.environment.movers import clear_of_movers, mover_depth
-from polypod.environment.obstacles import scatter
+from polypod.environment.scattering import scatter
 from polypod.environment.table import (
     is_forbidden_at,
     penetration_at,

@@ -9,7 +9,8 @@ from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, predict
-from polypod.environment.table import shift_of, surface_at, surface_normal, surface_normal_at
+from polypod.environment.placing import own_point
+from polypod.environment.table import surface_at, surface_normal, surface_normal_at
 from polypod.footprints.plan import plan_step
 from polypod.footprints.settings import StepRequest, landing_time
 from polypod.ik.foot import foot_rotation
@@ -209,7 +210,7 @@ def plan_foot(
     state.plan_clock[c, k] = 0.0
     state.plan_seconds[c, k] = seconds
     if support >= 0:
-        store_vec3(state.plan_shift[c, k], shift_of(env, support, seconds))
+        store_vec3(state.landing_own[c, k], own_point(env, support, target, seconds))
     store_vec3(state.foot_preferred[c, k], preferred)
     store_vec3(state.foot_target[c, k], target)
     store_quat(state.foot_rotation_target[c, k], turn)

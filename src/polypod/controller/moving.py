@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from polypod.compute import kernel
+from polypod.controller.steering import wrapped
 from polypod.controller.swing import drift, foot_along, swing_time_left
 from polypod.environment.movers import clear_of_movers, mover_depth
+from polypod.environment.placing import own_point, ride, world_point
 from polypod.environment.table import surface
+from polypod.math.quat import from_heading, load_quat, store_quat
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Ways and standing feet are looked at in so many moments ahead.
@@ -25,11 +28,13 @@ GONE = 1e-3
 def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
     """Move the standing feet with what they stand on, and the body with them.
 
-    What a swinging foot is to land on may not have come where it was foreseen: its target goes with
-    it.
+    They go round with what turns. What a swinging foot is to land on may not have come where it was
+    foreseen: its target goes with it.
     """
     count = state.swinging.shape[1]
+    body = load_vec3(state.position[c])
     carried = Vec3(0.0, 0.0, 0.0)
+    turn = 0.0
     standing = 0
     for k in range(count):
         if state.swinging[c, k]:
@@ -43,16 +48,24 @@ def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
         support = state.foot_support[c, k]
         if support < 0:
             continue
-        step = load_vec3(env.step[support])
-        carried = carried + step
+        carried = carried + ride(env, support, body)
+        turn += env.yaw_step[support]
+        step = ride(env, support, load_vec3(state.foot[c, k]))
         store_vec3(state.foot[c, k], load_vec3(state.foot[c, k]) + step)
         store_vec3(state.foot_target[c, k], load_vec3(state.foot_target[c, k]) + step)
         store_vec3(state.foot_preferred[c, k], load_vec3(state.foot_preferred[c, k]) + step)
+        if env.yaw_step[support] != 0.0:
+            along = from_heading(env.yaw_step[support])
+            store_quat(state.foot_rotation[c, k], along * load_quat(state.foot_rotation[c, k]))
     if standing > 0:
         carried = carried * (1.0 / standing)
-        store_vec3(state.position[c], load_vec3(state.position[c]) + carried)
+        store_vec3(state.position[c], body + carried)
         state.lift[c, 0] += carried.y
         state.lift[c, 2] += carried.y
+        if turn != 0.0:
+            turn = turn / standing
+            state.heading[c] = wrapped(state.heading[c] + turn)
+            store_quat(state.rotation[c], from_heading(turn) * load_quat(state.rotation[c]))
 
 
 @kernel
@@ -83,13 +96,16 @@ def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
     leg = tables.legs.length[k]
     half = max(tables.legs.foot_half_size[k, 0], tables.legs.foot_half_size[k, 1])
     support = state.foot_support[c, k]
-    velocity = Vec3(0.0, 0.0, 0.0)
-    if support >= 0:
-        velocity = load_vec3(env.velocity[support])
     over = load_vec3(state.foot[c, k]) + Vec3(0.0, ON_FOOT * leg, 0.0)
+    own = over
+    if support >= 0:
+        own = own_point(env, support, over, 0.0)
     for j in range(MOMENTS + 1):
         ahead = horizon * j / MOMENTS
-        if mover_depth(env, over + velocity * ahead, ahead, support) > -(half + ROOM * leg):
+        place = over
+        if support >= 0:
+            place = world_point(env, support, own, ahead)
+        if mover_depth(env, place, ahead, support) > -(half + ROOM * leg):
             return True
     return False
 

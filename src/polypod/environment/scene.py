@@ -15,8 +15,8 @@ from polypod.environment.obstacles import (
     SMALLEST,
     Obstacle,
     from_yaw,
-    scatter,
 )
+from polypod.environment.scattering import scatter
 from polypod.environment.scene_terrain import LARGEST_SEED, read_terrain
 from polypod.environment.scene_values import SceneTable, shown, within
 from polypod.environment.terrain import Terrain

@@ -7,6 +7,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.movers import mover_depth
+from polypod.environment.placing import own_point, world_point
 from polypod.environment.table import (
     EnvironmentTable,
     is_forbidden_at,
@@ -196,15 +197,18 @@ def is_run_over(
 
     `support` is what the foot will stand on, and be carried by.
     """
-    drift = Vec3(0.0, 0.0, 0.0)
-    if support >= 0:
-        drift = Vec3(env.velocity[support, 0], env.velocity[support, 1], env.velocity[support, 2])
     leg = request.leg_length
     over = place + Vec3(0.0, ON_FOOT * leg, 0.0)
     radius = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * leg
+    own = over
+    if support >= 0:
+        own = own_point(env, support, over, ahead)
     for k in range(1, STAND_SAMPLES + 1):
         later = request.stance_seconds * SAFE_STANCE * k / STAND_SAMPLES
-        if mover_depth(env, over + drift * later, ahead + later, support) > -radius:
+        there = over
+        if support >= 0:
+            there = world_point(env, support, own, ahead + later)
+        if mover_depth(env, there, ahead + later, support) > -radius:
             return True
     return False
 
