@@ -7,6 +7,7 @@ into parts whose hulls together are nearly it.
 from __future__ import annotations
 
 import io
+import os
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from polypod.environment.hulls import hull_triangles
 from polypod.environment.obstacles import LARGEST, MOST_HULL_POINTS, SMALLEST
 from polypod.environment.triangles import read_triangles
-from polypod.environment.welding import WELD, close_holes, open_edges, pieces, weld
+from polypod.environment.welding import WELD, close_holes, facing_out, open_edges, pieces, weld
 from polypod.errors import SceneError
 
 FloatArray = NDArray[np.float64]
@@ -129,7 +130,9 @@ def closed(
             f"{x:.4g}, {y:.4g}, {z:.4g} m from the middle; close it in the file, or say "
             "close = true to have lids put on its holes"
         )
-    return close_holes(points, faces, edges) if len(edges) else (points, faces)
+    if len(edges):
+        points, faces = close_holes(points, faces, edges)
+    return points, facing_out(points, faces)
 
 
 def is_convex(points: FloatArray, faces: IntArray) -> bool:
@@ -185,10 +188,18 @@ def _run_coacd(
 ) -> list[FloatArray]:
     given = io.BytesIO()
     np.savez(given, points=points, faces=faces.astype(np.int32), concavity=np.array(concavity))
-    command = [sys.executable, "-m", "polypod.environment.split_alone"]
+    # Its threads wait asleep: awake they took ten times as long on a busy machine.
+    surroundings = {**os.environ, "OMP_WAIT_POLICY": "passive"}
+    # Without its folder before others on the path: it imports nothing of ours.
+    command = [sys.executable, "-P", str(Path(__file__).with_name("split_alone.py"))]
     try:
         done = subprocess.run(
-            command, input=given.getvalue(), capture_output=True, timeout=SPLIT_SECONDS, check=True
+            command,
+            input=given.getvalue(),
+            capture_output=True,
+            timeout=SPLIT_SECONDS,
+            check=True,
+            env=surroundings,
         )
         with np.load(io.BytesIO(done.stdout), allow_pickle=False) as made:
             parts = [np.asarray(made[name], np.float64) for name in sorted(made.files)]
