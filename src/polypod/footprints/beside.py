@@ -72,7 +72,7 @@ def try_beside(
             offset = turn_out(frame, Vec3(math.cos(turn) * away, 0.0, math.sin(turn) * away))
             x = request.preferred_world.x + offset.x
             z = request.preferred_world.z + offset.z
-            score, y = judge_place(env, settings, request, legs, scratch.lift.near, x, z)
+            score, y = judge_place(env, settings, request, legs, scratch.ground, x, z)
             if score < 0.0:
                 continue
             end = Vec3(x, y, z)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.movers import mover_depth
@@ -11,14 +10,17 @@ from polypod.environment.placing import own_point, world_point
 from polypod.environment.table import (
     EnvironmentTable,
     is_forbidden_at,
-    is_wet,
     surface_at,
 )
+from polypod.footprints.bearing import is_borne
 from polypod.footprints.legs import REJECTED, leg_factor
+from polypod.footprints.relief import is_tread_wet
+from polypod.footprints.scratch import GroundScratch
 from polypod.footprints.settings import (
     FootShape,
     PlanSettings,
     StepRequest,
+    Tread,
     foot_shape,
     landing_time,
 )
@@ -35,6 +37,8 @@ TOO_HIGH = 0.7
 # Shorter stances have no course, leg lengths.
 SHORTEST_COURSE = 0.05
 LOWEST = -1e300
+# Gaps between solids up to so wide carry a foot, toes (by which its shape is grown).
+GAP = 0.5
 # A place is safe where nothing comes within this share of the stance, looked at so often, at a
 # point so many leg lengths above the sole.
 SAFE_STANCE = 0.6
@@ -43,41 +47,65 @@ ON_FOOT = 0.03
 
 
 @kernel
-def even_score(
+def lay_tread(
     env: EnvironmentTable,
+    settings: PlanSettings,
     foot: FootShape,
-    toe: float,
-    steepest: float,
-    tolerance: float,
-    x: float,
-    y: float,
-    z: float,
+    leg: float,
+    place: Vec3,
     ahead: float,
-) -> float:
+) -> tuple[Tread, float]:
+    """Return the foot's shape, grown by its toe, on the plane through four points of its outline.
+
+    Also how far the place itself is from the lines between opposite points, m. `leg` is the leg's
+    length, m.
+    """
+    half_a = foot.half_x + settings.toe * leg
+    half_b = foot.half_z + settings.toe * leg
+    a_x = half_a * foot.cosine
+    a_z = half_a * foot.sine
+    b_x = half_b * foot.sine
+    b_z = half_b * foot.cosine
+    east, _ = surface_at(env, place.x + a_x, place.z - a_z, ahead)
+    west, _ = surface_at(env, place.x - a_x, place.z + a_z, ahead)
+    north, _ = surface_at(env, place.x + b_x, place.z + b_z, ahead)
+    south, _ = surface_at(env, place.x - b_x, place.z - b_z, ahead)
+    rough = max(abs(east + west - 2.0 * place.y), abs(north + south - 2.0 * place.y)) * 0.5
+    tread = Tread(
+        place.x,
+        place.y,
+        place.z,
+        half_a,
+        half_b,
+        foot.sine,
+        foot.cosine,
+        (east - west) / (2.0 * half_a),
+        (north - south) / (2.0 * half_b),
+        settings.uneven * leg + settings.uneven_foot * foot.radius,
+        GAP * settings.toe * leg,
+        ahead,
+    )
+    return tread, rough
+
+
+@kernel
+def even_score(env: EnvironmentTable, tread: Tread, rough: float, steepest: float) -> float:
     """Return 1 for a plane under the foot's shape down to 0 at the tolerance; REJECTED beyond.
 
-    Four points on the shape's outline give the plane; four more, further out, tell what part of the
-    surroundings continues it: beside an edge or a wall the score falls to half.
+    `rough` is what is already known of it, m; to that come the corners.
     """
-    sine = foot.sine
-    cosine = foot.cosine
-    half_x = foot.half_x + toe
-    half_z = foot.half_z + toe
-    east, _ = surface_at(env, x + half_x * cosine, z - half_x * sine, ahead)
-    west, _ = surface_at(env, x - half_x * cosine, z + half_x * sine, ahead)
-    north, _ = surface_at(env, x + half_z * sine, z + half_z * cosine, ahead)
-    south, _ = surface_at(env, x - half_z * sine, z - half_z * cosine, ahead)
-    slope_x = (east - west) / (2.0 * half_x)
-    slope_z = (north - south) / (2.0 * half_z)
-    if slope_x * slope_x + slope_z * slope_z > steepest * steepest:
+    slope_a = tread.slope_a
+    slope_b = tread.slope_b
+    if slope_a * slope_a + slope_b * slope_b > steepest * steepest:
         return REJECTED
-    rough = max(abs(east + west - 2.0 * y), abs(north + south - 2.0 * y)) * 0.5
     for corner in range(4):
-        a = half_x if corner < 2 else -half_x
-        b = half_z if corner % 2 == 0 else -half_z
-        height, _ = surface_at(env, x + a * cosine + b * sine, z - a * sine + b * cosine, ahead)
-        rough = max(rough, abs(height - y - slope_x * a - slope_z * b))
-    return REJECTED if rough > tolerance else 1.0 - rough / tolerance
+        a = tread.half_a if corner < 2 else -tread.half_a
+        b = tread.half_b if corner % 2 == 0 else -tread.half_b
+        at_x = tread.x + a * tread.cosine + b * tread.sine
+        at_z = tread.z - a * tread.sine + b * tread.cosine
+        height, _ = surface_at(env, at_x, at_z, tread.ahead)
+        rough = max(rough, abs(height - tread.y - slope_a * a - slope_b * b))
+    return REJECTED if rough > tread.tolerance else 1.0 - rough / tread.tolerance
 
 
 @kernel
@@ -152,16 +180,11 @@ def exit_score(
 
 @kernel
 def is_foot_wet(env: EnvironmentTable, foot: FootShape, x: float, z: float) -> bool:
-    """Return whether the middle or a corner of the foot's shape lies in water."""
-    if env.water.shape[0] == 0:
-        return False
-    for corner in range(5):
-        a = foot.half_x * (0.0 if corner == 4 else (1.0 if corner < 2 else -1.0))
-        b = foot.half_z * (0.0 if corner == 4 else (1.0 if corner % 2 == 0 else -1.0))
-        at_x = x + a * foot.cosine + b * foot.sine
-        if is_wet(env, at_x, z - a * foot.sine + b * foot.cosine):
-            return True
-    return False
+    """Return whether any of the foot's shape lies in water."""
+    tread = Tread(
+        x, 0.0, z, foot.half_x, foot.half_z, foot.sine, foot.cosine, 0.0, 0.0, 0.0, 0.0, 0.0
+    )
+    return is_tread_wet(env, tread)
 
 
 @kernel
@@ -219,7 +242,7 @@ def judge_place(
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
-    near: Any,
+    ground: GroundScratch,
     x: float,
     z: float,
 ) -> tuple[float, float]:
@@ -230,7 +253,7 @@ def judge_place(
         settings: margins and weights.
         request: the step.
         legs: the other legs, of which `request.other_foot_count` segments count.
-        near: scratch for a list of obstacles.
+        ground: scratch.
         x: world x, m.
         z: world z, m.
     """
@@ -249,10 +272,11 @@ def judge_place(
     even = edge = leave = 1.0
     flat = env.terrain_range[0] == env.terrain_range[1]
     wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
-    if not flat or obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, near) > 0:
-        tolerance = settings.uneven * leg + settings.uneven_foot * foot.radius
-        even = even_score(env, foot, settings.toe * leg, settings.slope, tolerance, x, y, z, ahead)
-        if even < 0.0:
+    count = obstacles_near(env, x - wide, z - wide, x + wide, z + wide, LOWEST, ground.near)
+    if not flat or count > 0:
+        tread, rough = lay_tread(env, settings, foot, leg, Vec3(x, y, z), ahead)
+        even = even_score(env, tread, rough, settings.slope)
+        if even < 0.0 or not is_borne(env, tread, count, ground):
             return REJECTED, y
         edge = edge_score(
             env, foot, settings.edge * leg, settings.slope, settings.drop * leg, x, y, z, ahead
@@ -263,7 +287,7 @@ def judge_place(
     high = y + TOO_HIGH * request.reach_max
     if step > SHORTEST_COURSE * leg and (
         env.terrain_range[1] > high
-        or obstacles_near(env, x - step, z - step, x + step, z + step, high, near) > 0
+        or obstacles_near(env, x - step, z - step, x + step, z + step, high, ground.near) > 0
     ):
         heading = math.atan2(course_x, course_z)
         leave = exit_score(env, margin, x, z, high, heading, step, ahead)
@@ -271,7 +295,7 @@ def judge_place(
     if factor < 0.0:
         return REJECTED, y
     away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)
-    near = max(1.0 - away / max(request.search_radius, 1e-300), 0.0)
+    close = max(1.0 - away / max(request.search_radius, 1e-300), 0.0)
     level = max(1.0 - abs(y - request.level_height) / (settings.rise * leg), 0.0)
     whole = (
         request.level_weight
@@ -283,7 +307,7 @@ def judge_place(
     )
     score = (
         request.level_weight * level
-        + settings.weight_distance * near
+        + settings.weight_distance * close
         + settings.weight_even * even
         + settings.weight_edge * edge
         + settings.weight_reach * reach

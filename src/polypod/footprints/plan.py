@@ -160,7 +160,6 @@ def search(
     wanted = request.preferred_world
     y, _ = surface_at(env, wanted.x, wanted.z, landing_time(request))
     window = scratch.window
-    near = scratch.lift.near
     fill_window(env, settings, request, window)
     close_cells(env, settings, request, legs, window, scratch.grid)
     cells = list_cells(settings, request, window, scratch.grid, scratch.found)
@@ -174,7 +173,7 @@ def search(
     # Where no pair of the first candidates is valid, the next ones get their turn.
     for _ in range(ROUNDS):
         kept = judge_candidates(
-            env, settings, request, legs, window, cells, near, scratch.found, kept
+            env, settings, request, legs, window, cells, scratch.ground, scratch.found, kept
         )
         if kept == 0:
             break
@@ -231,7 +230,7 @@ def plan_step(
     wanted = request.preferred_world
     best = NOTHING
     near = scratch.lift.near
-    place_score, y = judge_place(env, settings, request, legs, near, wanted.x, wanted.z)
+    place_score, y = judge_place(env, settings, request, legs, scratch.ground, wanted.x, wanted.z)
     if place_score >= 0.0:
         end = Vec3(wanted.x, y, wanted.z)
         best, quality = try_direct(env, settings, request, legs, scratch, place_score, end, best)
