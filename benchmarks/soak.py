@@ -3,6 +3,7 @@
     python benchmarks/soak.py --rigs spider wolf --places crates platforms careless --seeds 3
 
 `crates` go to and fro at up to half of the walker's speed, `platforms` rise and fall under its way,
+`turning` ones turn as they do, with crates that turn to and fro between them,
 `careless` crates change their course every half second without warning. One row a walk: how deep a
 foot is inside anything at worst, at four moments between frames too, and in what share of them
 beyond 1 % of its leg; slip in the frame of what is stood on; distance to the surface; residual;
@@ -32,7 +33,7 @@ from polypod.report.stances import slip_per_stance
 from polypod.world import World
 
 SUBFRAMES = 4
-PLACES = ("crates", "platforms", "careless")
+PLACES = ("crates", "platforms", "turning", "careless")
 CRATES = 40
 COURSE_SECONDS = 0.5  # after which careless crates change their course
 LIMITS = {"inside": 0.01, "slip": 1e-3, "off": 2e-3, "residual": 0.01, "halt": 3.0}
@@ -109,10 +110,27 @@ def platforms(morphology: Morphology, distance: float, seed: int) -> Environment
     return Environment(None, made)
 
 
+def turning(morphology: Morphology, distance: float, seed: int) -> Environment:
+    """Return platforms that turn as they rise and fall, and crates that turn as they go."""
+    unit, speed = leg_length(morphology), default_speed(morphology)
+    random = np.random.default_rng(seed)
+    # At its rim a platform is about as fast as the crates.
+    made = [
+        dataclasses.replace(plate, turn_rate=float(random.uniform(-0.3, 0.3)) * speed / unit)
+        for plate in platforms(morphology, distance, seed).obstacles
+    ]
+    for crate in moving_crates(morphology, distance, seed).obstacles[::4]:
+        rate = float(random.uniform(-1.0, 1.0)) * speed / unit
+        made.append(dataclasses.replace(crate, turn_rate=rate))
+    return Environment(None, made)
+
+
 def make_place(place: str, morphology: Morphology, distance: float, seed: int) -> Environment:
     """Return one of the places."""
     if place == "platforms":
         return platforms(morphology, distance, seed)
+    if place == "turning":
+        return turning(morphology, distance, seed)
     if place == "crates":
         return moving_crates(morphology, distance, seed)
     first = front(morphology) + 0.5 * leg_length(morphology)

@@ -63,7 +63,9 @@ def place_of(kind, seed):
             width, height = random.uniform(0.001, 0.02), random.uniform(0.005, 0.05)
             at = random.uniform(-0.08, 0.08, 2)
             made.append(
-                Obstacle.box((width, height, width), (at[0], 0.5 * height, at[1]), random.uniform(0.0, 3.0))
+                Obstacle.box(
+                    (width, height, width), (at[0], 0.5 * height, at[1]), random.uniform(0.0, 3.0)
+                )
             )
     elif kind == "tiles":
         size, gap = random.uniform(0.03, 0.12), random.uniform(0.0, 0.02)

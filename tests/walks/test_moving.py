@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import sys
 from pathlib import Path
 
@@ -12,6 +13,8 @@ import pytest
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.morphology.load import load_rig
+from polypod.recording import record_walk
+from polypod.report.figures import measure
 from polypod.world import World
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -29,7 +32,7 @@ def test_nothing_goes_through_a_foot(rig: str, place: str) -> None:
     assert result.distance > 0.8
     # Things did move, and were met.
     assert np.ptp(recording.obstacle_position, axis=0).max() > 0.1
-    if place == "platforms":
+    if place in ("platforms", "turning"):
         assert (recording.foot_support[recording.foot_stance] >= 0).mean() > 0.3
 
 
@@ -44,6 +47,40 @@ def test_who_stands_on_a_platform_is_carried() -> None:
     assert not herd.state.swinging.any()
     assert np.abs(herd.state.foot_reached[0] - foot - way).max() < 1e-9
     assert np.abs(herd.state.position[0] - body - way).max() < 1e-3
+
+
+def test_who_stands_on_a_turntable_goes_round_with_it() -> None:
+    rate, drift = 0.7, (0.05, 0.02, -0.1)
+    disc = Obstacle.cylinder(4.0, 0.2, (0.6, 0.1, -0.4))
+    turntable = dataclasses.replace(disc, velocity=drift, turn_rate=rate)
+    world = World(Environment(obstacles=[turntable]), threads=1)
+    herd = world.add(load_rig("spider"), position=[0.0, 0.0])
+    state = herd.state
+    began, place = state.foot_reached[0].copy(), state.position[0].copy()
+    joints = state.joint_position[0].copy()
+    recording = record_walk(world, 2.0, 30.0)[0]
+    angle = rate * 2.0
+    turn = np.array(
+        [
+            [math.cos(angle), 0.0, math.sin(angle)],
+            [0.0, 1.0, 0.0],
+            [-math.sin(angle), 0.0, math.cos(angle)],
+        ]
+    )
+    pivot = np.array(disc.position)
+    after = pivot + 2.0 * np.array(drift)
+    assert recording.foot_stance.all()
+    assert np.abs(state.foot_reached[0] - after - (began - pivot) @ turn.T).max() < 1e-9
+    assert np.abs(state.position[0] - after - (place - pivot) @ turn.T).max() < 1e-3
+    assert np.abs(state.joint_position[0] - after - (joints - pivot) @ turn.T).max() < 2e-3
+    assert state.heading[0] == pytest.approx(angle, abs=1e-3)
+    assert recording.obstacle_rotation[-1, 0] == pytest.approx(
+        (0.0, math.sin(0.5 * angle), 0.0, math.cos(0.5 * angle))
+    )
+    figures = measure(recording, world.environment.table)
+    assert figures["stance_slip_of_leg"] < 1e-9
+    assert figures["stance_skate_mm_a_frame"] < 1e-6
+    assert figures["stance_off_surface_of_leg"] < 1e-6
 
 
 def test_a_crate_that_comes_over_a_standing_foot_finds_it_gone() -> None:
