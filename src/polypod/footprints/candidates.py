@@ -11,6 +11,7 @@ from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import CandidateScratch, GroundScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3, distance, load_vec3
+from polypod.paths.apart import LegsAhead
 from polypod.paths.check import leg_gap
 from polypod.paths.scratch import GridScratch, OtherLegs
 
@@ -142,6 +143,7 @@ def judge_candidates(
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
+    legs_ahead: LegsAhead,
     window: LocalMap,
     cells: int,
     ground: GroundScratch,
@@ -173,11 +175,13 @@ def judge_candidates(
         column = found.cell[best, 1]
         found.first_score[best] = STRUCK
         point = offer(window, row, column, request.preferred_world)
-        score, y = judge_place(env, settings, request, legs, ground, point.x, point.z)
+        score, y = judge_place(env, settings, request, legs, legs_ahead, ground, point.x, point.z)
         if score < 0.0:
             x = window.place[0] + (column + 0.5) * cell
             point = Vec3(x, 0.0, window.place[1] + (row + 0.5) * cell)
-            score, y = judge_place(env, settings, request, legs, ground, point.x, point.z)
+            score, y = judge_place(
+                env, settings, request, legs, legs_ahead, ground, point.x, point.z
+            )
         if score < 0.0:
             continue
         rule_out(window, found, cells, request.preferred_world, point, spacing)

@@ -25,6 +25,7 @@ from polypod.footprints.settings import (
     landing_time,
 )
 from polypod.math.vec3 import Vec3, distance
+from polypod.paths.apart import LegsAhead
 from polypod.paths.near import obstacles_near
 from polypod.paths.scratch import OtherLegs
 
@@ -242,6 +243,7 @@ def judge_place(
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
+    legs_ahead: LegsAhead,
     ground: GroundScratch,
     x: float,
     z: float,
@@ -253,6 +255,7 @@ def judge_place(
         settings: margins and weights.
         request: the step.
         legs: the other legs, of which `request.other_foot_count` segments count.
+        legs_ahead: all of them as they will be.
         ground: scratch.
         x: world x, m.
         z: world z, m.
@@ -291,7 +294,7 @@ def judge_place(
     ):
         heading = math.atan2(course_x, course_z)
         leave = exit_score(env, margin, x, z, high, heading, step, ahead)
-    factor = leg_factor(settings, request, legs, x, z)
+    factor = leg_factor(settings, request, legs, legs_ahead, Vec3(x, y, z))
     if factor < 0.0:
         return REJECTED, y
     away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from polypod.environment.maps import LocalMap, make_local_map
 from polypod.footprints.settings import PlanSettings
+from polypod.paths.apart import LegsAhead
 from polypod.paths.curve import PathRow, path_store
 from polypod.paths.scratch import GridScratch, LiftScratch, grid_scratch, lift_scratch
 
@@ -48,6 +49,7 @@ class PlanScratch(NamedTuple):
     other_a: NDArray[np.float64]  # [S, 3] world, m: ends of the other legs' segments
     other_b: NDArray[np.float64]  # [S, 3]
     other_radius: NDArray[np.float64]  # [S] m
+    ahead: LegsAhead  # the legs as they will be
     window: LocalMap
     grid: GridScratch
     lift: LiftScratch
@@ -57,19 +59,20 @@ class PlanScratch(NamedTuple):
     tally: NDArray[np.int64]  # [4] what the last request took, for display and measurements
 
 
-def make_plan_scratch(settings: PlanSettings, other_segments: int) -> PlanScratch:
+def make_plan_scratch(settings: PlanSettings, ahead: LegsAhead) -> PlanScratch:
     """Return the memory for one thread.
 
     Args:
         settings: with the largest candidate and slice limits that will be asked for.
-        other_segments: the most segments of other legs.
+        ahead: the legs.
     """
-    n = MAP_CELLS
+    n, other_segments = MAP_CELLS, len(ahead.leg)
     places = settings.candidate_limit + 1
     return PlanScratch(
         other_a=np.zeros((other_segments, 3)),
         other_b=np.zeros((other_segments, 3)),
         other_radius=np.zeros(other_segments),
+        ahead=ahead,
         window=make_local_map(n),
         grid=grid_scratch(n, settings.slice_limit + 1),
         lift=lift_scratch(),
