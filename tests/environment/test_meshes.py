@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from solids import Mesh, box, ell, ring, table, together, write_obj
 
-from polypod.environment import Environment, Obstacle, splitting
+from polypod.environment import Environment, Obstacle, convex_parts
 from polypod.environment.convex import polygon_around
 from polypod.environment.hulls import hull_planes, hull_triangles
 from polypod.environment.scene import read_scene
@@ -99,7 +99,7 @@ def solid(folder: Path, mesh: Mesh, **wanted: object) -> Obstacle:
 
 
 def test_a_convex_mesh_is_its_own_hull(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(splitting, "find_spec", lambda name: None)
+    monkeypatch.setattr(convex_parts, "find_spec", lambda name: None)
     obstacle = solid(tmp_path, box((5, 5, 5), (6, 7, 8)), size=(0.4, 0.2, 0.6))
     assert len(obstacle.parts) == 1
     same = Obstacle.box((0.4, 0.2, 0.6), (0.0, 0.5, 0.0))
@@ -112,7 +112,7 @@ def test_a_convex_mesh_is_its_own_hull(tmp_path: Path, monkeypatch: pytest.Monke
 def test_a_table_needs_no_library_and_feet_stand_on_top(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(splitting, "find_spec", lambda name: None)
+    monkeypatch.setattr(convex_parts, "find_spec", lambda name: None)
     obstacle = dataclasses.replace(solid(tmp_path, table()), position=(0.0, 0.175, 0.0))
     assert len(obstacle.parts) == 5
     env = Environment(obstacles=[Obstacle.box((1, 1, 1), (9, 0, 9)), obstacle]).table
@@ -184,21 +184,39 @@ def test_what_cannot_be_split_is_one_sentence(
 ) -> None:
     path = write_obj(tmp_path / "ell.obj", ell())
     with monkeypatch.context() as patch:
-        patch.setattr(splitting, "find_spec", lambda name: None)
+        patch.setattr(convex_parts, "find_spec", lambda name: None)
         with pytest.raises(SceneError, match=r"ell\.obj: the mesh is concave.*coacd"):
             mesh_parts(path, None, Split())
     coacd_or_skip()
     with monkeypatch.context() as patch:
-        patch.setattr(splitting, "MOST_FACES", 3)
+        patch.setattr(convex_parts, "MOST_FACES", 3)
         with pytest.raises(SceneError, match="faces; simplify it"):
             mesh_parts(path, None, Split())
 
-    def abort(*arguments: object, **keywords: object) -> None:
-        raise subprocess.CalledProcessError(-6, "split")
-
+    monkeypatch.setenv("POLYPOD_CACHE", str(tmp_path))
     monkeypatch.setattr(subprocess, "run", abort)
     with pytest.raises(SceneError, match="splitting the mesh into convex parts failed"):
         mesh_parts(path, None, Split())
+
+
+def abort(*arguments: object, **keywords: object) -> None:
+    raise subprocess.CalledProcessError(-6, "split")
+
+
+def test_a_mesh_is_split_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    coacd_or_skip()
+    monkeypatch.setenv("POLYPOD_CACHE", str(tmp_path))
+    path = write_obj(tmp_path / "ell.obj", ell())
+    made, _ = mesh_parts(path, None, Split())
+    (kept,) = (tmp_path / "meshes").iterdir()
+    with monkeypatch.context() as patch:
+        patch.setattr(subprocess, "run", abort)
+        again, _ = mesh_parts(path, None, Split())
+    assert all(np.array_equal(a, b) for a, b in zip(made, again, strict=True))
+    # One that is broken is made anew.
+    kept.write_bytes(kept.read_bytes()[:100])
+    again, _ = mesh_parts(path, None, Split())
+    assert all(np.array_equal(a, b) for a, b in zip(made, again, strict=True))
 
 
 MANY = together(*(box((i, 0, 0), (i + 0.5, 1, 1)) for i in range(5)))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from polypod.environment.convex_parts import COARSEST, FINEST
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import (
     FASTEST_TURN,
@@ -21,7 +22,7 @@ from polypod.environment.obstacles import (
 from polypod.environment.scattering import scatter
 from polypod.environment.scene_terrain import LARGEST_SEED, read_terrain
 from polypod.environment.scene_values import SceneTable, shown, within
-from polypod.environment.splitting import COARSEST, FINEST, MOST_PARTS, Split
+from polypod.environment.splitting import MOST_PARTS, Split
 from polypod.environment.terrain import Terrain
 from polypod.errors import SceneError, choices
 

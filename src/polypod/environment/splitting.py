@@ -6,17 +6,13 @@ into parts whose hulls together are nearly it.
 
 from __future__ import annotations
 
-import io
-import os
-import subprocess
-import sys
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from polypod.environment.convex_parts import COARSEST, FINEST, convex_parts
 from polypod.environment.hulls import hull_triangles
 from polypod.environment.obstacles import LARGEST, MOST_HULL_POINTS, SMALLEST
 from polypod.environment.triangles import read_triangles
@@ -27,12 +23,8 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 MOST_PARTS = 256
-MOST_FACES = 200_000  # of a concave piece: splitting more takes many minutes
-FINEST, COARSEST = 0.01, 1.0
-COARSER = 1.5  # where there are too many parts, so many times as much concavity is allowed
 CONVEX = 1e-5  # of the extent: farther from a hull nothing of a convex surface lies
 CORNER = 1e-4  # of the extent: a corner that stands out by less is left out
-SPLIT_SECONDS = 600.0
 AT_ONCE = 1 << 22  # heights of points over faces in one array
 
 
@@ -103,9 +95,9 @@ def mesh_parts(
     parts: list[FloatArray] = []
     for number, (points, piece) in enumerate(solids):
         left = split.most_parts - len(parts) - (len(solids) - number - 1)
-        hulls = (
-            [points] if is_convex(points, piece) else convex_parts(path, points, piece, split, left)
-        )
+        hulls = [points]
+        if not is_convex(points, piece):
+            hulls = convex_parts(path, points, piece, split.concavity, left)
         for hull in hulls:
             kept = np.unique(hull_triangles(hull, split.most_corners, CORNER))
             # What is as thin as a sheet of paper carries nothing.
@@ -151,64 +143,3 @@ def is_convex(points: FloatArray, faces: IntArray) -> bool:
         if not bool(np.all(one_side <= CONVEX * extent)):
             return False
     return True
-
-
-def convex_parts(
-    path: Path, points: FloatArray, faces: IntArray, split: Split, most: int
-) -> list[FloatArray]:
-    """Return the corners [N, 3] of at most `most` convex parts of a concave piece.
-
-    The library runs in a process of its own: on surfaces that it cannot deal with it may end the
-    process that it runs in.
-    """
-    if find_spec("coacd") is None:
-        raise SceneError(
-            f"{path}: the mesh is concave, and splitting it takes coacd: pip install coacd, or "
-            "Polypod's extra meshes"
-        )
-    if len(faces) > MOST_FACES:
-        raise SceneError(
-            f"{path}: a concave piece has {len(faces)} faces; simplify it to {MOST_FACES} or fewer"
-        )
-    concavity = split.concavity
-    while True:
-        parts = _run_coacd(path, points, faces, concavity)
-        if len(parts) <= most:
-            return parts
-        if concavity >= COARSEST:
-            raise SceneError(
-                f"{path}: the mesh takes {len(parts)} convex parts even at the coarsest concavity, "
-                f"where most_parts leaves {most}; raise most_parts"
-            )
-        concavity = min(COARSER * concavity, COARSEST)
-
-
-def _run_coacd(
-    path: Path, points: FloatArray, faces: IntArray, concavity: float
-) -> list[FloatArray]:
-    given = io.BytesIO()
-    np.savez(given, points=points, faces=faces.astype(np.int32), concavity=np.array(concavity))
-    # Its threads wait asleep: awake they took ten times as long on a busy machine.
-    surroundings = {**os.environ, "OMP_WAIT_POLICY": "passive"}
-    # Without its folder before others on the path: it imports nothing of ours.
-    command = [sys.executable, "-P", str(Path(__file__).with_name("split_alone.py"))]
-    try:
-        done = subprocess.run(
-            command,
-            input=given.getvalue(),
-            capture_output=True,
-            timeout=SPLIT_SECONDS,
-            check=True,
-            env=surroundings,
-        )
-        with np.load(io.BytesIO(done.stdout), allow_pickle=False) as made:
-            parts = [np.asarray(made[name], np.float64) for name in sorted(made.files)]
-    except (subprocess.SubprocessError, OSError, ValueError) as error:
-        words = "took too long" if isinstance(error, subprocess.TimeoutExpired) else "failed"
-        raise SceneError(
-            f"{path}: splitting the mesh into convex parts {words}; simplify the mesh, or raise "
-            "concavity"
-        ) from None
-    if not parts:
-        raise SceneError(f"{path}: coacd found no solid in the mesh")
-    return parts
