@@ -95,7 +95,8 @@ class Environment:
                     f"an obstacle is moved to {position!r} at {velocity!r}; each must be three "
                     f"numbers within {LARGEST:g}"
                 )
-        yaw = self.table.yaw[index] if turned is None else turned
+        before = self._moved[index][3] if index in self._moved else 0.0
+        yaw = before if turned is None else turned
         if not (abs(yaw) <= LARGEST and abs(turn_rate) <= FASTEST_TURN):
             raise SceneError(
                 f"an obstacle is turned by {turned!r} rad at {turn_rate!r} rad/s; these must be "
