@@ -53,6 +53,22 @@ def gaps(env, tread, grow, count=41):
     return np.stack([a, b], axis=1), above
 
 
+def ring(inner, outer, height, at, sectors=8):
+    """Return a flat ring as a mesh of convex sectors, its middle at a place [2]."""
+    angle = 2.0 * math.pi * np.arange(sectors + 1) / sectors
+    parts = [
+        tuple(
+            (radius * math.cos(a), y, radius * math.sin(a))
+            for a in angle[i : i + 2].tolist()
+            for radius in (inner, outer)
+            for y in (-0.5 * height, 0.5 * height)
+        )
+        for i in range(sectors)
+    ]
+    size = (2.0 * outer, height, 2.0 * outer)
+    return Obstacle("mesh", size, (at[0], 0.5 * height, at[1]), parts=tuple(parts))
+
+
 def place_of(kind, seed):
     """Return a place a foot has trouble with, about the origin."""
     random = np.random.default_rng(seed)
@@ -86,6 +102,11 @@ def place_of(kind, seed):
                     random.uniform(0.02, 0.3), 0.1, (at[0], 0.05, at[1]), q / np.linalg.norm(q)
                 )
             )
+    elif kind == "rings":
+        # Holes that some feet fit into and some do not, of sectors that meet at their seams.
+        for at in random.uniform(-0.06, 0.06, (2, 2)):
+            inner, height = random.uniform(0.01, 0.08), random.uniform(0.005, 0.05)
+            made.append(ring(inner, inner + random.uniform(0.01, 0.1), height, at))
     elif kind == "hulls":
         for _ in range(6):
             at = random.uniform(-0.1, 0.1, 2)
@@ -98,7 +119,7 @@ def place_of(kind, seed):
     return Environment(terrain, made).table, random
 
 
-KINDS = ("posts", "tiles", "balls", "drums", "hulls", "bumps")
+KINDS = ("posts", "tiles", "balls", "drums", "rings", "hulls", "bumps")
 
 
 @pytest.mark.parametrize("kind", KINDS)
