@@ -3,7 +3,7 @@
     python benchmarks/soak.py --rigs spider wolf --places crates trenches --seeds 3
 
 Of 40 `crates` that go to and fro at up to half of the walker's speed, `platforms` that rise and
-fall under its way, `turning` ones between crates that turn as they go, and `careless` crates that
+fall under its way, `turntables` with a few crates that turn as they go, and `careless` crates that
 change their course every half second without warning; a third of 45 crates `forbidden`; a
 `corridor` of forbidden posts; `stairs` with landings; `trenches`; `rubble` of random hulls. One row
 a walk: how deep a foot is inside anything at worst, at four moments between frames too, and in what
