@@ -16,7 +16,7 @@ from polypod.paths.scratch import LiftScratch, OtherLegs
 
 NOTHING = -1.0
 # A pair that scores less, as where legs would touch, is taken only if farther places do no better.
-POOR = 0.35
+POOR = 0.5
 
 
 @kernel

@@ -8,7 +8,7 @@ from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
 from polypod.environment.table import EnvironmentTable, surface_at
 from polypod.footprints.beside import is_open, try_beside
-from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
+from polypod.footprints.candidates import close_cells, judge_candidates, judge_shorter, list_cells
 from polypod.footprints.frame import foot_frame, legs_in, legs_out, path_out, request_in
 from polypod.footprints.pair import NOTHING, POOR, try_direct, try_pair
 from polypod.footprints.place import judge_place
@@ -171,6 +171,10 @@ def search(
         store_vec3(scratch.found.place[0], Vec3(wanted.x, y, wanted.z))
         scratch.found.place_cell[0, 0] = int((wanted.z - window.place[1]) / window.place[2])
         scratch.found.place_cell[0, 1] = int((wanted.x - window.place[0]) / window.place[2])
+    if direct_score < POOR:
+        kept = judge_shorter(
+            env, settings, request, legs, scratch.ahead, window, scratch.ground, scratch.found, kept
+        )
     # Where no pair of the first candidates is good, the next ones get their turn.
     for _ in range(ROUNDS):
         kept = judge_candidates(

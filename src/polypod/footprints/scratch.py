@@ -14,6 +14,7 @@ from polypod.paths.curve import PathRow, path_store
 from polypod.paths.scratch import GridScratch, LiftScratch, grid_scratch, lift_scratch
 
 MAP_CELLS = 70  # most cells a side
+SHORTER_STEPS = 4  # looked at where the preferred place is poor, as where legs would touch
 # Of a place: solids near it, corners of a polygon, sides of what bears a foot.
 MOST_NEAR, MOST_CORNERS, MOST_LINES = 128, 64, 128
 
@@ -25,7 +26,7 @@ TALLY_PATHS = 3  # 3D paths made
 
 
 class CandidateScratch(NamedTuple):
-    """Places a foot may land on; C is the candidate limit and one for the preferred place."""
+    """Places for a foot; C is the candidate limit, the shorter steps and the preferred place."""
 
     cell: NDArray[np.int64]  # [n n, 2] row and column of cells that may accept a foot
     first_score: NDArray[np.float64]  # [n n] by the maps alone
@@ -67,7 +68,7 @@ def make_plan_scratch(settings: PlanSettings, ahead: LegsAhead) -> PlanScratch:
         ahead: the legs.
     """
     n, other_segments = MAP_CELLS, len(ahead.leg)
-    places = settings.candidate_limit + 1
+    places = settings.candidate_limit + 1 + SHORTER_STEPS
     return PlanScratch(
         other_a=np.zeros((other_segments, 3)),
         other_b=np.zeros((other_segments, 3)),

@@ -27,17 +27,18 @@ IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 
 # The moments that are looked at: shares of the swing's time, and beyond 1 of the stance after it.
-MOMENTS = np.array([0.35, 0.65, 1.0, 1.4])
-TOUCHDOWN = 2
+MOMENTS = np.array([0.3, 0.5, 0.68, 0.85, 1.0, 1.4])
+TOUCHDOWN = 4
 # Only legs whose lines from hip to sole come so near in plan are posed, leg lengths: knees bend out
-# of that line by less.
+# of that line by less, those of sprawlers, whose legs stand in upright planes, by little.
 NEAR_IN_PLAN = 0.3
+NEAR_SPRAWLING = 0.15
 # Room between two legs that is as good as any, leg lengths.
 ROOM = 0.03
 # What a pair of footprint and path is worth where two legs would touch, and where they would be
-# inside each other by `ROOM` or more.
+# inside each other by `ROOM`. Deeper it is worth ever less: legs that are crossed come out again.
 TOUCHING = 0.6
-INSIDE = 0.1
+INSIDE = 0.15
 
 
 class LegsAhead(NamedTuple):
@@ -157,13 +158,14 @@ def room_at(
     own = ahead.own[0]
     own_hip = hip_ahead(ahead, moment, own)
     own_sole = Vec3(sole.x, 0.0, sole.z)
+    near = (NEAR_SPRAWLING if ahead.ik.turns_with_heading[own] else NEAR_IN_PLAN) * leg_length
     posed = False
     for other in range(ahead.others[0]):
         leg = ahead.leg[other]
         there = load_vec3(ahead.sole[moment, other])
         there = Vec3(there.x, 0.0, there.z)
         hip = hip_ahead(ahead, moment, leg)
-        if segment_gap(own_hip, own_sole, hip, there) > NEAR_IN_PLAN * leg_length:
+        if segment_gap(own_hip, own_sole, hip, there) > near:
             continue
         if not posed:
             pose_ahead(ahead, moment, own, effector, sole, ahead.own_point)
@@ -181,9 +183,14 @@ def room_at(
 @kernel
 def factor_of(room: float, most: float) -> float:
     """Return what a step is worth for the room between the legs; `most` is as good as any, m."""
-    if room >= most:
+    share = room / most
+    if share >= 1.0:
         return 1.0
-    return max(TOUCHING + (1.0 - TOUCHING) * room / most, INSIDE)
+    if share >= 0.0:
+        return TOUCHING + (1.0 - TOUCHING) * share
+    if share >= -1.0:
+        return TOUCHING + (TOUCHING - INSIDE) * share
+    return -INSIDE / share
 
 
 @kernel
