@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from polypod.environment import Environment, Obstacle, Terrain
 from polypod.environment.table import surface
 from polypod.footprints.bearing import is_borne
-from polypod.footprints.place import even_score, is_foot_wet, lay_tread
+from polypod.footprints.evenness import even_score, lay_tread
+from polypod.footprints.place import is_foot_wet
 from polypod.footprints.relief import terrain_spread
 from polypod.footprints.scratch import ground_scratch
 from polypod.footprints.settings import FootShape, PlanSettings
