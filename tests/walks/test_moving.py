@@ -13,14 +13,15 @@ import pytest
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.morphology.load import load_rig
-from polypod.recording import record_walk
+from polypod.recording import add_frame
 from polypod.report.figures import measure
+from polypod.report.record import Recorder
 from polypod.world import World
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import soak
 from places import default_speed
-from soak_places import STILL
+from soak_places import STILL, moving_crates
 
 MOVING = ("crates", "platforms", "turntables", "careless")
 
@@ -76,7 +77,14 @@ def test_who_stands_on_a_turntable_goes_round_with_it() -> None:
     state = herd.state
     began, place = state.foot_reached[0].copy(), state.position[0].copy()
     joints = state.joint_position[0].copy()
-    recording = record_walk(world, 2.0, 30.0)[0]
+    recorder = Recorder(herd.morphology, 1)
+    add_frame(recorder, world, herd, 0)
+    for frame in range(1, 61):
+        # It is asked to face where the turntable takes it; else it would step back.
+        herd.command.heading = rate * frame / 30.0
+        world.step(1.0 / 30.0)
+        add_frame(recorder, world, herd, 0)
+    recording = recorder.finish()
     angle = rate * 2.0
     turn = np.array(
         [
@@ -140,7 +148,7 @@ def test_threads_make_no_difference_among_moving_crates() -> None:
     morphology = load_rig("ant")
     walks = []
     for threads in (1, 2):
-        world = World(soak.moving_crates(morphology, 3.0, 3), threads=threads)
+        world = World(moving_crates(morphology, 3.0, 3), threads=threads)
         herd = world.add(morphology, count=4, speed=default_speed(morphology))
         for _ in range(60):
             world.step(1.0 / 30.0)
