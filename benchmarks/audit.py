@@ -207,11 +207,11 @@ def _forbidden(walk: _Walk, ground: Ground) -> dict[str, Finding]:
 def _over(ground: Ground, points: Floats) -> tuple[float, int]:
     """Return how far the points come inside a forbidden obstacle's plan outline, m, and which."""
     table, most, which = ground.environment, 0.0, -1
-    for index in sorted(ground.forbidden):
+    for index in ground.forbidden_solids:
         side = table.footprint_side[index, : table.footprint_count[index]]
         depth = (side[:, 2] - points[:, [0, 2]] @ side[:, :2].T).min(axis=1).max()
         if depth > most:
-            most, which = float(depth), index
+            most, which = float(depth), int(table.owner[index])
     return most, which
 
 

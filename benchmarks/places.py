@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from polypod.environment.environment import Environment
-from polypod.environment.obstacles import Obstacle, scatter
+from polypod.environment.obstacles import Obstacle
+from polypod.environment.scattering import scatter
 from polypod.environment.terrain import Terrain
 from polypod.morphology.load import load_rig
 from polypod.morphology.types import Morphology

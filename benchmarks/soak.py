@@ -3,12 +3,13 @@
     python benchmarks/soak.py --rigs spider wolf --places crates trenches --seeds 3
 
 Of 40 `crates` that go to and fro at up to half of the walker's speed, `platforms` that rise and
-fall under its way, and `careless` crates that change their course every half second without
-warning; a third of 45 crates `forbidden`; a `corridor` of forbidden posts; `stairs` with landings;
-`trenches`; `rubble` of random hulls. One row a walk: how deep a foot is inside anything at worst,
-at four moments between frames too, and in what share of them beyond 1 % of its leg; slip in the
-frame of what is stood on; distance to the surface; residual; in what share of frames two legs
-touch; share of the commanded distance; longest halt. Exit code 1 where a walk breaks a limit.
+fall under its way, `turntables` with a few crates that turn as they go, and `careless` crates that
+change their course every half second without warning; a third of 45 crates `forbidden`; a
+`corridor` of forbidden posts; `stairs` with landings; `trenches`; `rubble` of random hulls. One row
+a walk: how deep a foot is inside anything at worst, at four moments between frames too, and in what
+share of them beyond 1 % of its leg; slip in the frame of what is stood on; distance to the surface;
+residual; in what share of frames two legs touch; share of the commanded distance; longest halt.
+Exit code 1 where a walk breaks a limit.
 """
 
 from __future__ import annotations

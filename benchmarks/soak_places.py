@@ -17,6 +17,7 @@ from polypod.morphology.types import Morphology
 PLACES = (
     "crates",
     "platforms",
+    "turntables",
     "careless",
     "forbidden",
     "corridor",
@@ -82,6 +83,29 @@ def platforms(morphology: Morphology, distance: float, seed: int) -> Environment
         plate = Obstacle("box", (4.0 * unit, 0.12 * unit, size), low, path=(high,), speed=pace)
         made.append(plate)
         z += size + float(random.uniform(0.0, 0.3)) * unit
+    return Environment(None, made)
+
+
+def turntables(morphology: Morphology, distance: float, seed: int) -> Environment:
+    """Return discs that turn, one behind the other, some rising and falling as they do."""
+    unit, speed = leg_length(morphology), default_speed(morphology)
+    random = np.random.default_rng(seed)
+    made = []
+    z = front(morphology) + 0.6 * unit
+    while z < distance:
+        size = float(random.uniform(2.0, 5.0)) * unit
+        low = (float(random.uniform(-0.5, 0.5)) * unit, 0.04 * unit, z + 0.5 * size)
+        # At its rim it is up to half as fast as the walker.
+        rate = float(random.uniform(-1.0, 1.0)) * speed / size
+        disc = Obstacle("cylinder", (size, 0.08 * unit, size), low, turn_rate=rate)
+        if random.random() < 0.5:
+            high = (low[0], low[1] + 0.1 * unit, low[2])
+            disc = dataclasses.replace(disc, path=(high,), speed=0.1 * speed)
+        made.append(disc)
+        z += size + 0.3 * unit
+    for crate in moving_crates(morphology, distance, seed).obstacles[:: CRATES // 4]:
+        rate = float(random.uniform(-1.0, 1.0)) * speed / unit
+        made.append(dataclasses.replace(crate, turn_rate=rate))
     return Environment(None, made)
 
 
@@ -213,6 +237,8 @@ def make_place(place: str, morphology: Morphology, distance: float, seed: int) -
         return Environment(None, crates(morphology, begin, distance, seed, 1.0 / 3.0))
     if place == "platforms":
         return platforms(morphology, distance, seed)
+    if place == "turntables":
+        return turntables(morphology, distance, seed)
     if place == "crates":
         return moving_crates(morphology, distance, seed)
     first = front(morphology) + 0.5 * leg_length(morphology)

@@ -14,7 +14,8 @@ from polypod.cache import use_kernel_cache
 if TYPE_CHECKING:
     from polypod.config import Settings
     from polypod.environment.environment import Environment
-    from polypod.environment.obstacles import Obstacle, scatter
+    from polypod.environment.obstacles import Obstacle
+    from polypod.environment.scattering import scatter
     from polypod.environment.scene import read_scene
     from polypod.environment.terrain import Terrain
     from polypod.errors import PolypodError
@@ -48,7 +49,7 @@ _HOMES = {
     "read_record": "polypod.report.record",
     "read_scene": "polypod.environment.scene",
     "record_walk": "polypod.recording",
-    "scatter": "polypod.environment.obstacles",
+    "scatter": "polypod.environment.scattering",
     "write_gait": "polypod.gait.files",
     "write_glb": "polypod.rigs.export",
     "write_record": "polypod.report.record",

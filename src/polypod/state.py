@@ -76,7 +76,7 @@ class HerdState(NamedTuple):
     landing_support: IntArray  # [C, K] what it will land on: obstacle, -1: the ground
     plan_clock: FloatArray  # [C, K] s since its way was planned
     plan_seconds: FloatArray  # [C, K] s from then to touchdown
-    plan_shift: FloatArray  # [C, K, 3] m: shift at touchdown of what it lands on, as then foreseen
+    landing_own: FloatArray  # [C, K, 3] m: the landing place among the rows of what it is on
     wish: FloatArray  # [C, K, 3] where it would then have liked to land
     foot: FloatArray  # [C, K, 3] the sole as planned
     foot_start: FloatArray  # [C, K, 3] the sole at lift-off
@@ -208,7 +208,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "foot_preferred",
             "foot_reached",
             "wish",
-            "plan_shift",
+            "landing_own",
         ),
         (c, k, 3),
     )

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from polypod.environment.obstacles import Obstacle, scatter
+from polypod.environment.obstacles import Obstacle
+from polypod.environment.scattering import scatter
 from polypod.environment.terrain import Terrain
 from polypod.frame import step_creatures
 from polypod.morphology.load import load_rig

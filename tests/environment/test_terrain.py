@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from polypod.environment import Environment, Obstacle, Terrain, scatter
-from polypod.environment.convex import hull_planes, polygon_around, polygon_sides
+from polypod.environment.convex import polygon_around, polygon_sides
+from polypod.environment.hulls import hull_planes
 from polypod.environment.table import is_wet, penetration, surface, surface_normal
 from polypod.errors import SceneError
 from polypod.math.vec3 import Vec3

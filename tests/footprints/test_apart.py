@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from polypod.environment.environment import Environment
-from polypod.environment.obstacles import scatter
+from polypod.environment.scattering import scatter
 from polypod.environment.terrain import Terrain
 from polypod.math.quat import from_heading, rotate, store_quat
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from polypod.environment.environment import Environment
-from polypod.environment.obstacles import scatter
+from polypod.environment.scattering import scatter
 from polypod.environment.terrain import Terrain
 from polypod.morphology.load import load_rig
 from polypod.recording import record_walk

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from polypod.config import Settings
-from polypod.environment.obstacles import scatter
+from polypod.environment.scattering import scatter
 from polypod.environment.terrain import Terrain
 from polypod.errors import GaitError, SettingError
 from polypod.gait.library import make_gait

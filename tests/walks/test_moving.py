@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import sys
 from pathlib import Path
 
@@ -12,14 +13,17 @@ import pytest
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.morphology.load import load_rig
+from polypod.recording import add_frame
+from polypod.report.figures import measure
+from polypod.report.record import Recorder
 from polypod.world import World
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 import soak
 from places import default_speed
-from soak_places import STILL
+from soak_places import STILL, moving_crates
 
-MOVING = ("crates", "platforms", "careless")
+MOVING = ("crates", "platforms", "turntables", "careless")
 
 
 @pytest.mark.parametrize("place", MOVING)
@@ -28,11 +32,16 @@ def test_nothing_goes_through_a_foot(rig: str, place: str) -> None:
     morphology = load_rig(rig)
     recording, environment = soak.walk(morphology, place, 1, 10.0, 30.0)
     result = soak.judge(recording, environment, default_speed(morphology))
-    assert result.broken(place) == []
+    broken = set(result.broken(place))
+    if place == "turntables":
+        # Feet on the ground and on a disc are carried toward each other.
+        assert result.touching < 0.02
+        broken -= {"touching"}
+    assert broken == set()
     assert result.distance > 0.8
     # Things did move, and were met.
     assert np.ptp(recording.obstacle_position, axis=0).max() > 0.1
-    if place == "platforms":
+    if place in ("platforms", "turntables"):
         assert (recording.foot_support[recording.foot_stance] >= 0).mean() > 0.3
 
 
@@ -57,6 +66,47 @@ def test_who_stands_on_a_platform_is_carried() -> None:
     assert not herd.state.swinging.any()
     assert np.abs(herd.state.foot_reached[0] - foot - way).max() < 1e-9
     assert np.abs(herd.state.position[0] - body - way).max() < 1e-3
+
+
+def test_who_stands_on_a_turntable_goes_round_with_it() -> None:
+    rate, drift = 0.7, (0.05, 0.02, -0.1)
+    disc = Obstacle.cylinder(4.0, 0.2, (0.6, 0.1, -0.4))
+    turntable = dataclasses.replace(disc, velocity=drift, turn_rate=rate)
+    world = World(Environment(obstacles=[turntable]), threads=1)
+    herd = world.add(load_rig("spider"), position=[0.0, 0.0])
+    state = herd.state
+    began, place = state.foot_reached[0].copy(), state.position[0].copy()
+    joints = state.joint_position[0].copy()
+    recorder = Recorder(herd.morphology, 1)
+    add_frame(recorder, world, herd, 0)
+    for frame in range(1, 61):
+        # It is asked to face where the turntable takes it; else it would step back.
+        herd.command.heading = rate * frame / 30.0
+        world.step(1.0 / 30.0)
+        add_frame(recorder, world, herd, 0)
+    recording = recorder.finish()
+    angle = rate * 2.0
+    turn = np.array(
+        [
+            [math.cos(angle), 0.0, math.sin(angle)],
+            [0.0, 1.0, 0.0],
+            [-math.sin(angle), 0.0, math.cos(angle)],
+        ]
+    )
+    pivot = np.array(disc.position)
+    after = pivot + 2.0 * np.array(drift)
+    assert recording.foot_stance.all()
+    assert np.abs(state.foot_reached[0] - after - (began - pivot) @ turn.T).max() < 1e-9
+    assert np.abs(state.position[0] - after - (place - pivot) @ turn.T).max() < 1e-3
+    assert np.abs(state.joint_position[0] - after - (joints - pivot) @ turn.T).max() < 2e-3
+    assert state.heading[0] == pytest.approx(angle, abs=1e-3)
+    assert recording.obstacle_rotation[-1, 0] == pytest.approx(
+        (0.0, math.sin(0.5 * angle), 0.0, math.cos(0.5 * angle))
+    )
+    figures = measure(recording, world.environment.table)
+    assert figures["stance_slip_of_leg"] < 1e-9
+    assert figures["stance_skate_mm_a_frame"] < 1e-6
+    assert figures["stance_off_surface_of_leg"] < 1e-6
 
 
 def test_a_crate_that_comes_over_a_standing_foot_finds_it_gone() -> None:
@@ -98,7 +148,7 @@ def test_threads_make_no_difference_among_moving_crates() -> None:
     morphology = load_rig("ant")
     walks = []
     for threads in (1, 2):
-        world = World(soak.moving_crates(morphology, 3.0, 3), threads=threads)
+        world = World(moving_crates(morphology, 3.0, 3), threads=threads)
         herd = world.add(morphology, count=4, speed=default_speed(morphology))
         for _ in range(60):
             world.step(1.0 / 30.0)

@@ -12,7 +12,8 @@ from polypod.controller.errand import Errand
 from polypod.controller.others import gather_other_legs, look_ahead
 from polypod.controller.rest import body_height_at, hip_at, level_height, rest_offset
 from polypod.controller.steering import PlanPose, predict
-from polypod.environment.table import shift_of, surface_at
+from polypod.environment.placing import own_point
+from polypod.environment.table import surface_at
 from polypod.footprints.plan import plan_step
 from polypod.footprints.settings import StepRequest, landing_time, placed_shape
 from polypod.math.quat import store_quat
@@ -130,7 +131,7 @@ def plan_foot(
     state.plan_clock[c, k] = 0.0
     state.plan_seconds[c, k] = seconds
     if support >= 0:
-        store_vec3(state.plan_shift[c, k], shift_of(env, support, seconds))
+        store_vec3(state.landing_own[c, k], own_point(env, support, target, seconds))
     store_vec3(state.foot_preferred[c, k], preferred)
     store_vec3(state.foot_target[c, k], target)
     store_quat(state.foot_rotation_target[c, k], turn)

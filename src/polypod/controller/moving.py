@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from polypod.compute import kernel
+from polypod.controller.steering import wrapped
 from polypod.controller.swing import drift, foot_along, swing_time_left
 from polypod.environment.movers import clear_of_movers, mover_depth
+from polypod.environment.placing import own_point, ride, world_point
 from polypod.environment.table import surface
-from polypod.math.quat import load_quat, rotate
+from polypod.math.quat import from_heading, load_quat, rotate, store_quat
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Ways and standing feet are looked at in so many moments ahead.
@@ -26,11 +28,13 @@ GONE = 1e-3
 def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
     """Move the standing feet with what they stand on, and the body with them.
 
-    What a swinging foot is to land on may not have come where it was foreseen: its target goes with
-    it.
+    They go round with what turns. What a swinging foot is to land on may not have come where it was
+    foreseen: its target goes with it.
     """
     count = state.swinging.shape[1]
+    body = load_vec3(state.position[c])
     carried = Vec3(0.0, 0.0, 0.0)
+    turn = 0.0
     standing = 0
     for k in range(count):
         if state.swinging[c, k]:
@@ -44,16 +48,24 @@ def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
         support = state.foot_support[c, k]
         if support < 0:
             continue
-        step = load_vec3(env.step[support])
-        carried = carried + step
+        carried = carried + ride(env, support, body)
+        turn += env.yaw_step[support]
+        step = ride(env, support, load_vec3(state.foot[c, k]))
         store_vec3(state.foot[c, k], load_vec3(state.foot[c, k]) + step)
         store_vec3(state.foot_target[c, k], load_vec3(state.foot_target[c, k]) + step)
         store_vec3(state.foot_preferred[c, k], load_vec3(state.foot_preferred[c, k]) + step)
+        if env.yaw_step[support] != 0.0:
+            along = from_heading(env.yaw_step[support])
+            store_quat(state.foot_rotation[c, k], along * load_quat(state.foot_rotation[c, k]))
     if standing > 0:
         carried = carried * (1.0 / standing)
-        store_vec3(state.position[c], load_vec3(state.position[c]) + carried)
+        store_vec3(state.position[c], body + carried)
         state.lift[c, 0] += carried.y
         state.lift[c, 2] += carried.y
+        if turn != 0.0:
+            turn = turn / standing
+            state.heading[c] = wrapped(state.heading[c] + turn)
+            store_quat(state.rotation[c], from_heading(turn) * load_quat(state.rotation[c]))
 
 
 @kernel
@@ -75,6 +87,14 @@ def way_blocked(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
 
 
 @kernel
+def carried_along(env: Any, support: int, point_world: Vec3, ahead: float) -> Vec3:
+    """Return where a point that goes with what a foot stands on will be; support -1: stays."""
+    if support < 0:
+        return point_world
+    return world_point(env, support, own_point(env, support, point_world, 0.0), ahead)
+
+
+@kernel
 def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
     """Return whether something will soon run into a standing foot."""
     if state.cycle_rate[c] <= 0.0:
@@ -84,9 +104,6 @@ def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
     leg = tables.legs.length[k]
     half = max(tables.legs.foot_half_size[k, 0], tables.legs.foot_half_size[k, 1])
     support = state.foot_support[c, k]
-    velocity = Vec3(0.0, 0.0, 0.0)
-    if support >= 0:
-        velocity = load_vec3(env.velocity[support])
     room = half + ROOM * leg
     over = load_vec3(state.foot[c, k]) + Vec3(0.0, ON_FOOT * leg, 0.0)
     # About the sole, and about the middle of a foot that reaches back from it.
@@ -94,10 +111,11 @@ def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
     middle = over + rotate(load_quat(state.foot_rotation[c, k]), behind)
     for j in range(MOMENTS + 1):
         ahead = horizon * j / MOMENTS
-        way = velocity * ahead
-        if mover_depth(env, over + way, ahead, support) > -room:
+        if mover_depth(env, carried_along(env, support, over, ahead), ahead, support) > -room:
             return True
-        if behind.z < 0.0 and mover_depth(env, middle + way, ahead, support) > -room:
+        if behind.z == 0.0:
+            continue
+        if mover_depth(env, carried_along(env, support, middle, ahead), ahead, support) > -room:
             return True
     return False
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
-from polypod.environment.table import shift_of
+from polypod.environment.placing import world_point
 from polypod.gait.needle import progress_since_lift, swing_progress
 from polypod.math.quat import Quat, load_quat, slerp
 from polypod.math.vec3 import Vec3, length_plan, load_vec3
@@ -147,10 +147,12 @@ def drift(c: int, k: int, along: float, state: Any, env: Any) -> Vec3:
     if support < 0:
         return Vec3(0.0, 0.0, 0.0)
     left = max(state.plan_seconds[c, k] - state.plan_clock[c, k], 0.0)
-    foreseen = shift_of(env, support, left)
-    surprise = foreseen - load_vec3(state.plan_shift[c, k])
+    last = state.path.count[c, k, 0] - 1
+    own = load_vec3(state.landing_own[c, k])
+    foreseen = world_point(env, support, own, left)
+    surprise = foreseen - load_vec3(state.path.point[c, k, last])
     late = along * along * along * along
-    return surprise * along - (foreseen - load_vec3(env.shift[support])) * (late * late)
+    return surprise * along - (foreseen - world_point(env, support, own, 0.0)) * (late * late)
 
 
 @kernel

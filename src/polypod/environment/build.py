@@ -24,23 +24,27 @@ MOST_LISTED_MOVING = 64
 def build_table(
     terrain: Terrain, obstacles: Sequence[Obstacle], movable: bool = False
 ) -> EnvironmentTable:
-    """Return the table of an environment at its start; obstacle o is row o.
+    """Return the table of an environment at its start; each obstacle's solids are rows in turn.
 
     Where something moves, or is `movable`, `motion.list_obstacles` must be called before it is
     asked anything.
     """
-    planes = [obstacle.planes() for obstacle in obstacles]
-    outlines = [obstacle.footprint() for obstacle in obstacles]
-    bounds = _bounds(obstacles)
+    owned = [(i, solid) for i, obstacle in enumerate(obstacles) for solid in obstacle.solids()]
+    owner = np.array([i for i, _ in owned], dtype=np.int64)
+    solids = [solid for _, solid in owned]
+    pivot = np.array([o.position for o in obstacles], dtype=np.float64).reshape(-1, 3)
+    planes = [solid.planes() for solid in solids]
+    outlines = [solid.footprint() for solid in solids]
+    bounds = _bounds(solids)
     plane_table, plane_count = _padded(planes, 4)
     footprint, footprint_count = _padded(outlines, 2)
     sides, _ = _padded([polygon_sides(outline) for outline in outlines], 3)
     place, shape, start, item, spread = _buckets(bounds)
-    movers = np.array([i for i, o in enumerate(obstacles) if o.moves or movable], dtype=np.int64)
+    movers = np.array([i for i, o in enumerate(solids) if o.moves or movable], dtype=np.int64)
     if len(movers):
         # Listed anew in every frame, in memory that is large enough for any of them.
         start = np.zeros(MOST_BUCKETS_MOVING + 1, np.int64)
-        item = np.zeros(max(1, len(obstacles)) * MOST_LISTED_MOVING, np.int64)
+        item = np.zeros(max(1, len(solids)) * MOST_LISTED_MOVING, np.int64)
     heights = terrain.heights
     # Kernels read two samples along each axis.
     heights = np.repeat(heights, 2, axis=0) if heights.shape[0] == 1 else heights
@@ -51,25 +55,31 @@ def build_table(
         terrain_place=np.array([terrain.origin[0], terrain.origin[1], terrain.cell]),
         terrain_range=np.array([heights.min(), heights.max()]),
         water=np.array(terrain.water if wet else np.zeros((0, 0)), dtype=np.bool_, order="C"),
-        kind=np.array([KIND_OF_SHAPE[o.shape] for o in obstacles], dtype=np.int64),
-        position=np.array([o.position for o in obstacles], dtype=np.float64).reshape(-1, 3),
-        rotation=np.array([o.rotation for o in obstacles], dtype=np.float64).reshape(-1, 4),
-        half_size=0.5 * np.array([o.size for o in obstacles], dtype=np.float64).reshape(-1, 3),
-        forbidden=np.array([o.forbidden for o in obstacles], dtype=np.bool_),
-        forbidden_count=sum(o.forbidden for o in obstacles),
+        owner=owner,
+        kind=np.array([KIND_OF_SHAPE[o.shape] for o in solids], dtype=np.int64),
+        position=np.array([o.position for o in solids], dtype=np.float64).reshape(-1, 3),
+        rotation=np.array([o.rotation for o in solids], dtype=np.float64).reshape(-1, 4),
+        half_size=0.5 * np.array([o.size for o in solids], dtype=np.float64).reshape(-1, 3),
+        forbidden=np.array([o.forbidden for o in solids], dtype=np.bool_),
+        forbidden_count=sum(o.forbidden for o in solids),
         planes=plane_table,
         plane_count=plane_count,
         footprint=footprint,
         footprint_side=sides,
         footprint_count=footprint_count,
         bounds=bounds,
+        radius=_radii(outlines, pivot[owner]),
         mover_count=len(movers),
         movers=movers,
+        pivot=pivot,
         shift=np.zeros((len(obstacles), 3)),
         velocity=np.zeros((len(obstacles), 3)),
         turn_in=np.full(len(obstacles), np.inf),
         next_velocity=np.zeros((len(obstacles), 3)),
         step=np.zeros((len(obstacles), 3)),
+        yaw=np.zeros(len(obstacles)),
+        yaw_rate=np.zeros(len(obstacles)),
+        yaw_step=np.zeros(len(obstacles)),
         swept=bounds.copy(),
         bucket_place=place,
         bucket_shape=shape,
@@ -88,21 +98,28 @@ def _padded(arrays: list[FloatArray], width: int) -> tuple[FloatArray, IntArray]
     return table, count
 
 
-def _bounds(obstacles: Sequence[Obstacle]) -> FloatArray:
-    """Return least and greatest x, y, z [O, 6]: exact but for cylinders, around which they lie."""
-    bounds = np.zeros((len(obstacles), 6))
-    for o, obstacle in enumerate(obstacles):
-        if obstacle.shape == "sphere":
-            centre, radius = np.array(obstacle.position), 0.5 * obstacle.size[0]
+def _bounds(solids: Sequence[Obstacle]) -> FloatArray:
+    """Return least and greatest x, y, z [S, 6]: exact but for cylinders, around which they lie."""
+    bounds = np.zeros((len(solids), 6))
+    for o, solid in enumerate(solids):
+        if solid.shape == "sphere":
+            centre, radius = np.array(solid.position), 0.5 * solid.size[0]
             bounds[o] = np.concatenate([centre - radius, centre + radius])
         else:
-            corners = obstacle.corners()
+            corners = solid.corners()
             bounds[o] = np.concatenate([corners.min(axis=0), corners.max(axis=0)])
-        # A point on the rim belongs to the obstacle whichever way its coordinates were rounded.
+        # A point on the rim belongs to the solid whichever way its coordinates were rounded.
         slack = 1e-9 * (bounds[o, 3:] - bounds[o, :3])
         bounds[o, :3] -= slack
         bounds[o, 3:] += slack
     return bounds
+
+
+def _radii(outlines: list[FloatArray], pivot: FloatArray) -> FloatArray:
+    """Return how far outlines [V, 2] reach from their pivots [S, 3] in plan, with some slack."""
+    pairs = zip(outlines, pivot[:, [0, 2]], strict=True)
+    reach = [float(np.linalg.norm(line - centre, axis=1).max()) for line, centre in pairs]
+    return (1.0 + 1e-9) * np.array(reach, dtype=np.float64)
 
 
 def _buckets(bounds: FloatArray) -> tuple[FloatArray, IntArray, IntArray, IntArray, IntArray]:

@@ -1,8 +1,7 @@
-"""Convex shapes from points: polygons in the plan, planes in space; nothing here is compiled."""
+"""Convex polygons in the plan, and rotations; nothing here is compiled."""
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
@@ -65,34 +64,3 @@ def polygon_sides(corners: FloatArray) -> FloatArray:
     normal = np.stack([along[:, 1], -along[:, 0]], axis=1)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     return np.column_stack([normal, np.sum(normal * corners, axis=1)])
-
-
-def hull_planes(points: FloatArray) -> FloatArray:
-    """Return the planes [P, 4] (outward normal, offset) of the convex hull of points [N, 3].
-
-    Every three points span a plane; those with all points on one side are the hull's. That is slow
-    for many points and right for the few dozen of an obstacle. A flat or empty hull has no planes.
-    """
-    extent = float(np.max(np.ptp(points, axis=0))) if len(points) else 0.0
-    triples = np.array(list(itertools.combinations(range(len(points)), 3)), dtype=np.int64)
-    if len(points) < 4 or extent == 0.0:
-        return np.zeros((0, 4))
-    middle = points.mean(axis=0)
-    scaled = (points - middle) / extent
-    found: list[FloatArray] = []
-    for part in np.array_split(triples, max(1, len(triples) // 4096)):
-        a, b, c = scaled[part[:, 0]], scaled[part[:, 1]], scaled[part[:, 2]]
-        normal = np.cross(b - a, c - a)
-        size = np.linalg.norm(normal, axis=1)
-        solid = size > 1e-9
-        normal = normal[solid] / size[solid, None]
-        height = normal @ scaled.T - np.sum(normal * a[solid], axis=1)[:, None]
-        for sign in (1.0, -1.0):
-            outer = np.all(sign * height <= 1e-9, axis=1) & np.any(sign * height < -1e-7, axis=1)
-            facing = sign * normal[outer]
-            found.append(np.column_stack([facing, np.max(facing @ scaled.T, axis=1)]))
-    planes = np.concatenate(found)
-    _, first = np.unique(np.round(planes, 6) + 0.0, axis=0, return_index=True)
-    planes = planes[np.sort(first)]
-    planes[:, 3] = planes[:, 3] * extent + planes[:, :3] @ middle
-    return planes

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from polypod.environment.build import build_table
 from polypod.environment.motion import make_tracks, move_obstacles
-from polypod.environment.obstacles import LARGEST, Obstacle
+from polypod.environment.obstacles import FASTEST_TURN, LARGEST, Obstacle
 from polypod.environment.table import EnvironmentTable
 from polypod.environment.terrain import Terrain
 from polypod.errors import SceneError
@@ -58,10 +58,24 @@ class Environment:
         """Whether anything moves or may be moved."""
         return len(self._tracks.obstacle) > 0 or self.movable
 
-    def move(self, index: int, position: ArrayLike, velocity: ArrayLike = (0.0, 0.0, 0.0)) -> None:
-        """Put an obstacle's centre elsewhere, m; it is there from the next step on.
+    def move(
+        self,
+        index: int,
+        position: ArrayLike,
+        velocity: ArrayLike = (0.0, 0.0, 0.0),
+        *,
+        turned: float | None = None,
+        turn_rate: float = 0.0,
+    ) -> None:
+        """Put an obstacle's position elsewhere, m; it is there from the next step on.
 
-        `velocity`, m/s, is what creatures then expect of it.
+        Args:
+            index: of the obstacle.
+            position: where it is put, m.
+            velocity: what creatures then expect of it, m/s.
+            turned: how far it is turned about the vertical through its position against how it was
+                made, rad from +Z toward +X; omitted: as it is now.
+            turn_rate: what creatures then expect of its turn, rad/s.
 
         Raises:
             SceneError: no such obstacle, one that moves by itself, or numbers that cannot be used;
@@ -81,8 +95,17 @@ class Environment:
                     f"an obstacle is moved to {position!r} at {velocity!r}; each must be three "
                     f"numbers within {LARGEST:g}"
                 )
-        self._moved[index] = place - np.array(self.obstacles[index].position)
+        before = self._moved[index][3] if index in self._moved else 0.0
+        yaw = before if turned is None else turned
+        if not (abs(yaw) <= LARGEST and abs(turn_rate) <= FASTEST_TURN):
+            raise SceneError(
+                f"an obstacle is turned by {turned!r} rad at {turn_rate!r} rad/s; these must be "
+                f"numbers within {LARGEST:g} and {FASTEST_TURN:g}"
+            )
+        shift = place - np.array(self.obstacles[index].position)
+        self._moved[index] = np.array([*shift, yaw])
         self.table.velocity[index] = speed
+        self.table.yaw_rate[index] = turn_rate
 
     def advance(self, time: float) -> None:
         """Put everything that moves where it is at a time, seconds from the start."""
@@ -90,16 +113,26 @@ class Environment:
             return
         table = self.table
         np.negative(table.shift, out=table.step)
-        for index, shift in self._moved.items():
-            table.shift[index] = shift
+        np.negative(table.yaw, out=table.yaw_step)
+        for index, moved in self._moved.items():
+            table.shift[index] = moved[:3]
+            table.yaw[index] = moved[3]
         move_obstacles(self.kernel_table, self._kernel_tracks, time)
         table.step[:] += table.shift
+        table.yaw_step[:] += table.yaw
 
     @property
     def rotations(self) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """The obstacles' turns [O, 4], x, y, z, w, which they keep."""
-        return self.table.rotation
+        """The obstacles' present turns [O, 4], x, y, z, w."""
+        made = np.array([o.rotation for o in self.obstacles], np.float64).reshape(-1, 4)
+        half = 0.5 * self.table.yaw
+        sine, cosine = np.sin(half), np.cos(half)
+        x, y, z, w = made.T
+        # The turn about the vertical comes after the one it was made with.
+        spun = (cosine * x + sine * z, cosine * y + sine * w, cosine * z - sine * x,
+                cosine * w - sine * y)  # fmt: skip
+        return np.where((half == 0.0)[:, None], made, np.stack(spun, axis=1))
 
     def places(self) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """Return the present centres of all obstacles [O, 3], m."""
-        return np.array(self.table.position + self.table.shift)
+        """Return the present positions of all obstacles [O, 3], m."""
+        return np.array(self.table.pivot + self.table.shift)

@@ -1,9 +1,6 @@
 """The obstacles' part of the maps: footprints grown by the foot, rasterised exactly (P1 Figure 12).
 
-Footprint, foot and cell are convex, so "some foot centred in this cell touches the footprint" means
-that the cell's centre lies in the Minkowski sum of the three. In a plane that sum is bounded by
-half-planes along the normals of the three shapes' sides, each as far out as the three reach
-together; a row of cells meets it in one span.
+`halfplanes` bounds where a solid grown by cell and foot reaches; here that is written into cells.
 """
 
 from __future__ import annotations
@@ -12,15 +9,23 @@ import math
 from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
-from polypod.environment.convex import ROUND_SAG, ROUND_SLACK
-from polypod.environment.shapes import BOX, CYLINDER, SPHERE, VERTICAL
-from polypod.environment.table import (
-    EnvironmentTable,
-    FloatArray,
-    bucket_line,
-    first_met,
-    shift_of,
+from polypod.environment.buckets import bucket_line, first_met
+from polypod.environment.halfplanes import (
+    BASE,
+    COVERED,
+    GROWN,
+    INSIDE,
+    OVERLAP,
+    SPREAD,
+    set_sides,
+    set_tops,
+    span,
+    tops_at,
+    turn_rows,
 )
+from polypod.environment.placing import shift_of, yaw_of
+from polypod.environment.shapes import BOX
+from polypod.environment.table import EnvironmentTable
 
 if TYPE_CHECKING:
     from polypod.environment.maps import LocalMap
@@ -39,18 +44,6 @@ OBSTACLE_JUMP = 0.25
 MOVING_TIMES = 4
 ROUNDING = 1e-9  # in cells: a touch counts, whichever way it is rounded
 
-# A row of LocalMap.sides: a normal (x, z), then how far along it a cell's centre may lie so that
-GROWN = 2  # some foot in the cell touches the footprint
-OVERLAP = 3  # the cell itself touches it
-INSIDE = 4  # the cell lies in it
-COVERED = 5  # every foot in the cell lies in it
-SIDE_COLUMNS = 6
-
-# A row of LocalMap.tops: a plane y = base + slope_x x + slope_z z; how much it rises from a cell's
-# centre to the farthest point of the farthest foot in it; how much it falls, at most.
-SLOPE_X, SLOPE_Z, BASE, SPREAD, FALL = 0, 1, 2, 3, 4
-TOP_COLUMNS = 5
-
 
 @kernel
 def fill_obstacles(
@@ -61,7 +54,7 @@ def fill_obstacles(
     foot_yaw: float,
     ahead: float,
 ) -> None:
-    """Raise the cells that obstacles near the window reach, and mark the forbidden ones.
+    """Raise the cells that solids near the window reach, and mark the forbidden ones.
 
     What moves is drawn where it is, where it will be `ahead` seconds from now, and between.
     """
@@ -100,19 +93,26 @@ def _raise_moved(
     foot_yaw: float,
     ahead: float,
 ) -> None:
-    """Write obstacle `o` into every cell that it reaches on its way; a still one once.
+    """Write solid `o` into every cell that it reaches on its way; a still one once.
 
-    Cells are shifted, not the obstacle: its rows stay where they are.
+    Cells are shifted, not the solid: its rows stay where they are; a turned one is copied.
     """
-    moves = env.velocity[o, 0] != 0.0 or env.velocity[o, 1] != 0.0 or env.velocity[o, 2] != 0.0
+    i = env.owner[o]
+    moves = env.velocity[i, 0] != 0.0 or env.velocity[i, 1] != 0.0 or env.velocity[i, 2] != 0.0
+    moves = moves or env.yaw_rate[i] != 0.0
     times = MOVING_TIMES if moves and ahead > 0.0 else 1
     corner_x = window.place[0]
     corner_z = window.place[1]
     for k in range(times):
-        shift = shift_of(env, o, ahead * k / max(times - 1, 1))
+        later = ahead * k / max(times - 1, 1)
+        shift = shift_of(env, i, later)
         window.place[0] = corner_x - shift.x
         window.place[1] = corner_z - shift.z
-        _raise_cells(env, window, o, foot_half_x, foot_half_z, foot_yaw, shift.y)
+        yaw = yaw_of(env, i, later)
+        if yaw != 0.0:
+            turn_rows(env, window, o, yaw)
+        turns = yaw != 0.0
+        _raise_cells(env, window, o, turns, foot_half_x, foot_half_z, foot_yaw, shift.y)
     window.place[0] = corner_x
     window.place[1] = corner_z
 
@@ -122,40 +122,52 @@ def _raise_cells(
     env: EnvironmentTable,
     window: LocalMap,
     o: int,
+    turns: bool,
     foot_half_x: float,
     foot_half_z: float,
     foot_yaw: float,
     rise: float,
 ) -> None:
-    """Write obstacle `o`, `rise` metres above its rows, into every cell that it reaches."""
+    """Write solid `o`, `rise` metres above its rows, into every cell that it reaches.
+
+    Where it `turns`, the window has its corners, sides and planes.
+    """
     n = window.size[0]
     cell = window.place[2]
-    count = _set_sides(env, window, o, foot_half_x, foot_half_z, foot_yaw)
-    tops = _set_tops(env, window, o, foot_half_x, foot_half_z, foot_yaw)
+    corners = window.turned_corners if turns else env.footprint[o]
+    own_sides = window.turned_sides if turns else env.footprint_side[o]
+    planes = window.turned_planes if turns else env.planes[o]
+    least_z = env.bounds[o, 2]
+    greatest_z = env.bounds[o, 5]
+    for v in range(env.footprint_count[o] if turns else 0):
+        least_z = corners[v, 1] if v == 0 else min(least_z, corners[v, 1])
+        greatest_z = corners[v, 1] if v == 0 else max(greatest_z, corners[v, 1])
+    count = set_sides(env, window, o, corners, own_sides, foot_half_x, foot_half_z, foot_yaw)
+    tops = set_tops(env, window, o, planes, foot_half_x, foot_half_z, foot_yaw)
     level = tops == 1 and window.tops[0, SPREAD] == 0.0
     forbidden = env.forbidden[o]
     slack = ROUNDING * cell
     kind_level = KIND_FORBIDDEN if forbidden else KIND_GROUND
     reach = math.hypot(foot_half_x, foot_half_z) + cell
-    first = _cell_at((env.bounds[o, 2] - reach - window.place[1]) / cell, n)
-    last = _cell_at((env.bounds[o, 5] + reach - window.place[1]) / cell, n)
+    first = _cell_at((least_z - reach - window.place[1]) / cell, n)
+    last = _cell_at((greatest_z + reach - window.place[1]) / cell, n)
     high = window.tops[0, BASE] + rise
     low = high
     covered = True
     for i in range(first, last + 1):
         z = window.place[1] + (i + 0.5) * cell
-        least, greatest = _span(window.sides, count, slack, z, GROWN)
+        least, greatest = span(window.sides, count, slack, z, GROWN)
         if least > greatest + slack:
             continue
-        overlap_least, overlap_greatest = _span(window.sides, count, slack, z, OVERLAP)
-        inside_least, inside_greatest = _span(window.sides, count, slack, z, INSIDE)
-        covered_least, covered_greatest = _span(window.sides, count, slack, z, COVERED)
+        overlap_least, overlap_greatest = span(window.sides, count, slack, z, OVERLAP)
+        inside_least, inside_greatest = span(window.sides, count, slack, z, INSIDE)
+        covered_least, covered_greatest = span(window.sides, count, slack, z, COVERED)
         left = math.ceil(max((least - window.place[0]) / cell - 0.5 - ROUNDING, 0.0))
         right = math.floor(min((greatest - window.place[0]) / cell - 0.5 + ROUNDING, n - 1.0))
         for j in range(left, right + 1):
             x = window.place[0] + (j + 0.5) * cell
             if not level:
-                high, low, covered = _tops(window.tops, tops, x, z)
+                high, low, covered = tops_at(window.tops, tops, x, z)
                 high = min(high, env.bounds[o, 4]) + rise
                 low += rise
             if high <= window.lowest[i, j] and not forbidden:
@@ -172,10 +184,9 @@ def _raise_cells(
                 window.lowest[i, j] = max(window.lowest[i, j], low)
             else:
                 window.jump[i, j] = OBSTACLE_JUMP * cell
-    corners = env.footprint_count[o] if env.kind[o] == BOX else 0
-    for v in range(corners):
-        j = math.floor((env.footprint[o, v, 0] - window.place[0]) / cell)
-        i = math.floor((env.footprint[o, v, 1] - window.place[1]) / cell)
+    for v in range(env.footprint_count[o] if env.kind[o] == BOX else 0):
+        j = math.floor((corners[v, 0] - window.place[0]) / cell)
+        i = math.floor((corners[v, 1] - window.place[1]) / cell)
         if min(i, j) >= 0 and max(i, j) < n and window.kind[i, j] == KIND_EDGE:
             window.kind[i, j] = KIND_CORNER
 
@@ -183,152 +194,3 @@ def _raise_cells(
 @kernel
 def _cell_at(place: float, n: int) -> int:
     return math.floor(min(max(place, 0.0), n - 1.0))
-
-
-@kernel
-def _set_sides(
-    env: EnvironmentTable,
-    window: LocalMap,
-    o: int,
-    foot_half_x: float,
-    foot_half_z: float,
-    foot_yaw: float,
-) -> int:
-    """Write the half-planes that bound obstacle `o` grown by cell and foot; return how many."""
-    half = 0.5 * window.place[2]
-    cosine = math.cos(foot_yaw)
-    sine = math.sin(foot_yaw)
-    # A round footprint is drawn around the circle: what lies surely in it is a little smaller.
-    slack = 0.0 if env.kind[o] == BOX else ROUND_SLACK * env.half_size[o, 0]
-    own = env.footprint_count[o]
-    for k in range(own + 8):
-        if k < own:
-            normal_x = env.footprint_side[o, k, 0]
-            normal_z = env.footprint_side[o, k, 1]
-            reach = env.footprint_side[o, k, 2]
-        else:
-            # The normals of the cell, then of the foot, each with its opposite.
-            normal_x = 1.0 if k - own < 4 else cosine
-            normal_z = 0.0 if k - own < 4 else -sine
-            if (k - own) % 2 == 1:
-                normal_x, normal_z = -normal_z, normal_x
-            if (k - own) % 4 >= 2:
-                normal_x, normal_z = -normal_x, -normal_z
-            reach = _reach(env.footprint[o], own, normal_x, normal_z)
-        cell_reach = half * (abs(normal_x) + abs(normal_z))
-        foot_reach = _foot_reach(normal_x, normal_z, cosine, sine, foot_half_x, foot_half_z)
-        window.sides[k, 0] = normal_x
-        window.sides[k, 1] = normal_z
-        window.sides[k, GROWN] = reach + cell_reach + foot_reach
-        window.sides[k, OVERLAP] = reach + cell_reach if k < own + 4 else math.inf
-        window.sides[k, INSIDE] = reach - cell_reach - slack if k < own else math.inf
-        window.sides[k, COVERED] = reach - cell_reach - foot_reach - slack if k < own else math.inf
-    return int(own + 8)
-
-
-@kernel
-def _reach(corners: FloatArray, count: int, normal_x: float, normal_z: float) -> float:
-    """Return how far a footprint reaches along a plan direction."""
-    reach = -math.inf
-    for v in range(count):
-        reach = max(reach, float(normal_x * corners[v, 0] + normal_z * corners[v, 1]))
-    return reach
-
-
-@kernel
-def _foot_reach(
-    x: float, z: float, cosine: float, sine: float, foot_half_x: float, foot_half_z: float
-) -> float:
-    """Return how far the foot's rectangle reaches along a plan direction; times its size."""
-    return foot_half_x * abs(x * cosine - z * sine) + foot_half_z * abs(x * sine + z * cosine)
-
-
-@kernel
-def _span(
-    sides: FloatArray, count: int, slack: float, z: float, column: int
-) -> tuple[float, float]:
-    """Return the least and greatest x of a row inside all half-planes; (inf, -inf) for none."""
-    least = -math.inf
-    greatest = math.inf
-    for k in range(count):
-        normal_x = sides[k, 0]
-        room = sides[k, column] - sides[k, 1] * z
-        if normal_x > VERTICAL:
-            greatest = min(greatest, room / normal_x)
-        elif normal_x < -VERTICAL:
-            least = max(least, room / normal_x)
-        elif room < -slack:
-            return math.inf, -math.inf
-    return least, greatest
-
-
-@kernel
-def _set_tops(
-    env: EnvironmentTable,
-    window: LocalMap,
-    o: int,
-    foot_half_x: float,
-    foot_half_z: float,
-    foot_yaw: float,
-) -> int:
-    """Write the planes of obstacle `o` that face up; return how many, 0 for a sphere.
-
-    A sphere writes the half sizes, along x and z, of the box around the feet in a cell, and in the
-    second row its centre and its radius.
-    """
-    cosine = math.cos(foot_yaw)
-    sine = math.sin(foot_yaw)
-    half = 0.5 * window.place[2]
-    if env.kind[o] == SPHERE:
-        foot_x = _foot_reach(1.0, 0.0, cosine, sine, foot_half_x, foot_half_z)
-        foot_z = _foot_reach(0.0, 1.0, cosine, sine, foot_half_x, foot_half_z)
-        window.tops[0, 0] = half + foot_x
-        window.tops[0, 1] = half + foot_z
-        for axis in range(3):
-            window.tops[1, axis] = env.position[o, axis]
-        window.tops[1, 3] = env.half_size[o, 0]
-        return 0
-    count = 0
-    for p in range(env.plane_count[o]):
-        rise = env.planes[o, p, 1]
-        if rise > VERTICAL:
-            slope_x = -env.planes[o, p, 0] / rise
-            slope_z = -env.planes[o, p, 2] / rise
-            foot = _foot_reach(slope_x, slope_z, cosine, sine, foot_half_x, foot_half_z)
-            window.tops[count, SLOPE_X] = slope_x
-            window.tops[count, SLOPE_Z] = slope_z
-            window.tops[count, BASE] = env.planes[o, p, 3] / rise
-            spread = half * (abs(slope_x) + abs(slope_z)) + foot
-            window.tops[count, SPREAD] = spread
-            window.tops[count, FALL] = spread
-            if env.kind[o] == CYLINDER and p < env.plane_count[o] - 2:
-                # A side of the prism around a leaning cylinder: what surely holds lies further in.
-                window.tops[count, FALL] = spread + ROUND_SAG * env.half_size[o, 0] / rise
-            count += 1
-    return count
-
-
-@kernel
-def _tops(tops: FloatArray, count: int, x: float, z: float) -> tuple[float, float, bool]:
-    """Return the highest and the lowest top of obstacle `o` under feet in the cell around (x, z).
-
-    The lowest holds only where the third value is true and the feet are covered by the footprint.
-    The top is the least of the planes that face up, so its minimum is the least of their minima;
-    the least of their maxima is its maximum or a little above.
-    """
-    if count == 0:
-        off_x = abs(x - tops[1, 0])
-        off_z = abs(z - tops[1, 2])
-        near = math.hypot(max(off_x - tops[0, 0], 0.0), max(off_z - tops[0, 1], 0.0))
-        far = math.hypot(off_x + tops[0, 0], off_z + tops[0, 1])
-        radius = tops[1, 3]
-        high = tops[1, 1] + math.sqrt(max(radius * radius - near * near, 0.0))
-        low = tops[1, 1] + math.sqrt(max(radius * radius - far * far, 0.0))
-        return high, low, far < radius
-    high = math.inf
-    low = math.inf
-    for k in range(count):
-        middle = tops[k, BASE] + tops[k, SLOPE_X] * x + tops[k, SLOPE_Z] * z
-        high = min(high, middle + tops[k, SPREAD])
-        low = min(low, middle - tops[k, FALL])
-    return high, low, True

@@ -14,10 +14,12 @@ import numpy as np
 
 from polypod.compute import kernel
 from polypod.environment.elevation import fill_terrain, fill_water
-from polypod.environment.grown import SIDE_COLUMNS, TOP_COLUMNS, fill_obstacles
+from polypod.environment.grown import fill_obstacles
+from polypod.environment.halfplanes import SIDE_COLUMNS, TOP_COLUMNS
+from polypod.environment.obstacles import MOST_HULL_POINTS
 from polypod.environment.table import BoolArray, EnvironmentTable, FloatArray, IntArray
 
-MOST_SIDES = 96  # of a footprint, and planes of a hull: it has at most 48 points
+MOST_SIDES = 2 * MOST_HULL_POINTS  # of a footprint, and planes of a hull
 # The chamfer counts in whole numbers, which is three times as fast: a step, and a diagonal one.
 STEP, DIAGONAL = 5, 7
 
@@ -42,6 +44,9 @@ class LocalMap(NamedTuple):
     jump: FloatArray  # [N, N] scratch: the difference of heights that makes a cell an edge
     sides: FloatArray  # [MOST_SIDES + 8, SIDE_COLUMNS] scratch
     tops: FloatArray  # [MOST_SIDES, TOP_COLUMNS] scratch
+    turned_corners: FloatArray  # [MOST_SIDES, 2] scratch: of a solid that turns
+    turned_sides: FloatArray  # [MOST_SIDES, 3] scratch
+    turned_planes: FloatArray  # [MOST_SIDES, 4] scratch
     steps: IntArray  # [N + 2, N + 2] scratch
 
 
@@ -62,6 +67,9 @@ def make_local_map(n: int) -> LocalMap:
         jump=np.zeros((n, n)),
         sides=np.zeros((MOST_SIDES + 8, SIDE_COLUMNS)),
         tops=np.zeros((MOST_SIDES, TOP_COLUMNS)),
+        turned_corners=np.zeros((MOST_SIDES, 2)),
+        turned_sides=np.zeros((MOST_SIDES, 3)),
+        turned_planes=np.zeros((MOST_SIDES, 4)),
         steps=np.zeros((n + 2, n + 2), np.int64),
     )
 

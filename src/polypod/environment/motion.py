@@ -31,6 +31,7 @@ class Tracks(NamedTuple):
     direction: FloatArray  # [M, P, 3] from each point to the next, unit
     end: FloatArray  # [M, P] m of way, from the start to the end of each stretch
     speed: FloatArray  # [M] m/s
+    turn_rate: FloatArray  # [M] rad/s
 
 
 def make_tracks(obstacles: Sequence[Obstacle]) -> Tracks:
@@ -44,13 +45,15 @@ def make_tracks(obstacles: Sequence[Obstacle]) -> Tracks:
         direction=np.zeros((len(moving), most, 3)),
         end=np.full((len(moving), most), np.inf),
         speed=np.zeros(len(moving)),
+        turn_rate=np.array([obstacles[i].turn_rate for i in moving], dtype=np.float64),
     )
     for m, i in enumerate(moving):
         obstacle = obstacles[i]
         if not obstacle.path:
             speed = math.hypot(*obstacle.velocity)
             tracks.speed[m] = speed
-            tracks.direction[m, 0] = np.array(obstacle.velocity) / speed
+            if speed > 0.0:
+                tracks.direction[m, 0] = np.array(obstacle.velocity) / speed
             continue
         points = np.array([obstacle.position, *obstacle.path])
         legs = np.roll(points, -1, axis=0) - points
@@ -87,26 +90,36 @@ def move_obstacles(env: EnvironmentTable, tracks: Tracks, time: float) -> None:
             env.next_velocity[o, axis] = tracks.direction[m, after, axis] * tracks.speed[m]
         if tracks.speed[m] > 0.0:
             env.turn_in[o] = (tracks.end[m, leg] - along) / tracks.speed[m]
+        env.yaw[o] = tracks.turn_rate[m] * time
+        env.yaw_rate[o] = tracks.turn_rate[m]
     list_obstacles(env)
 
 
 @kernel
 def list_obstacles(env: EnvironmentTable) -> None:
-    """Write `swept` and the buckets for where all obstacles are now and within the horizon."""
+    """Write `swept` and the buckets for where all solids are now and within the horizon."""
     count = env.bounds.shape[0]
     x0 = math.inf
     z0 = math.inf
     x1 = -math.inf
     z1 = -math.inf
     for o in range(count):
+        i = env.owner[o]
+        turns = env.yaw[i] != 0.0 or env.yaw_rate[i] != 0.0
         for axis in range(3):
-            before = min(HORIZON, env.turn_in[o])
-            turn = env.velocity[o, axis] * before
-            end = turn + env.next_velocity[o, axis] * (HORIZON - before)
-            low = env.shift[o, axis] + min(turn, end, 0.0)
-            high = env.shift[o, axis] + max(turn, end, 0.0)
-            env.swept[o, axis] = env.bounds[o, axis] + low
-            env.swept[o, 3 + axis] = env.bounds[o, 3 + axis] + high
+            before = min(HORIZON, env.turn_in[i])
+            turn = env.velocity[i, axis] * before
+            end = turn + env.next_velocity[i, axis] * (HORIZON - before)
+            low = env.shift[i, axis] + min(turn, end, 0.0)
+            high = env.shift[i, axis] + max(turn, end, 0.0)
+            least = env.bounds[o, axis]
+            greatest = env.bounds[o, 3 + axis]
+            if turns and axis != 1:
+                # All the way round: in a few frames it may be anywhere there.
+                least = env.pivot[i, axis] - env.radius[o]
+                greatest = env.pivot[i, axis] + env.radius[o]
+            env.swept[o, axis] = least + low
+            env.swept[o, 3 + axis] = greatest + high
         x0 = min(x0, env.swept[o, 0])
         z0 = min(z0, env.swept[o, 2])
         x1 = max(x1, env.swept[o, 3])
@@ -138,7 +151,7 @@ def list_obstacles(env: EnvironmentTable) -> None:
 
 @kernel
 def fill_buckets(env: EnvironmentTable, buckets: int) -> None:
-    """List every obstacle in the buckets of its range, in rising order: a counting sort."""
+    """List every solid in the buckets of its range, in rising order: a counting sort."""
     columns = env.bucket_shape[1]
     start = env.bucket_start
     for bucket in range(buckets + 1):

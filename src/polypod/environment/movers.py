@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from polypod.compute import kernel
+from polypod.environment.placing import own_point, world_direction
 from polypod.environment.shapes import depth_inside, way_out
-from polypod.environment.table import EnvironmentTable, shift_of
+from polypod.environment.table import EnvironmentTable
 from polypod.math.vec3 import Vec3
 
 
@@ -17,10 +18,11 @@ def mover_depth(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int
     Outside it is below zero and its size at most the distance; minus infinity where nothing moves.
     """
     deepest = -math.inf
-    for i in range(env.mover_count):
-        o = env.movers[i]
-        if o != own:
-            depth = depth_inside(env, o, point_world - shift_of(env, o, ahead))
+    for m in range(env.mover_count):
+        o = env.movers[m]
+        i = env.owner[o]
+        if i != own:
+            depth = depth_inside(env, o, own_point(env, i, point_world, ahead))
             deepest = max(deepest, depth)
     return deepest
 
@@ -31,9 +33,10 @@ def clear_of_movers(env: EnvironmentTable, point_world: Vec3, ahead: float, own:
 
     `ahead` s from now.
     """
-    for i in range(env.mover_count):
-        o = env.movers[i]
-        if o == own:
-            continue
-        point_world = point_world + way_out(env, o, point_world - shift_of(env, o, ahead))
+    for m in range(env.mover_count):
+        o = env.movers[m]
+        i = env.owner[o]
+        if i != own:
+            out = way_out(env, o, own_point(env, i, point_world, ahead))
+            point_world = point_world + world_direction(env, i, out, ahead)
     return point_world

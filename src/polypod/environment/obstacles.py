@@ -1,10 +1,12 @@
-"""Obstacles: convex solids that stand in the world, and how to scatter many of them."""
+"""Obstacles: solids that stand or move in the world, convex or of convex parts."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,51 +15,58 @@ from numpy.typing import NDArray
 from polypod.environment.convex import (
     FloatArray,
     circle_around,
-    hull_planes,
     polygon_around,
     polygon_sides,
     rotation_matrix,
 )
+from polypod.environment.hulls import hull_planes
 from polypod.errors import SceneError, choices
 
 if TYPE_CHECKING:
-    from polypod.environment.terrain import Terrain
+    from polypod.environment.splitting import Split
 
-SHAPES = ("box", "cylinder", "sphere", "hull")
-MOST_HULL_POINTS = 48
+SHAPES = ("box", "cylinder", "sphere", "hull", "mesh")
+MOST_HULL_POINTS = 128
 LARGEST = 1e5  # m: of a coordinate or a size; beyond it positions lose the precision of a footprint
 SMALLEST = 1e-6  # m
 FASTEST = 100.0  # m/s
+FASTEST_TURN = 100.0  # rad/s
+
+Point = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
 class Obstacle:
-    """One convex solid; world metres.
+    """One solid; world metres.
 
     `size` is along the solid's own axes before `rotation` (unit quaternion x, y, z, w): a cylinder
     stands along y with equal x and z, a sphere has three equal sizes. A hull is the convex hull of
-    `points` [N, 3], given from `position` in the solid's own axes. Feet neither step on a
-    `forbidden` obstacle nor pass over it.
+    `points` [N, 3], given from `position` in the solid's own axes. A mesh is of `parts`, each the
+    points of a convex hull, and is one thing to whoever stands on it or moves it; `mesh` makes it
+    of a file. Feet neither step on a `forbidden` obstacle nor pass over it.
 
     It stands still, or moves with a constant `velocity`, m/s, or with `speed`, m/s, to the points
-    of its `path` in turn and from the last to where it began, again and again. It does not turn.
+    of its `path` in turn and from the last to where it began, again and again. Meanwhile it turns
+    about the vertical through its position by `turn_rate`, rad/s from +Z toward +X.
     """
 
     shape: str
-    size: tuple[float, float, float]
-    position: tuple[float, float, float]
+    size: Point
+    position: Point
     rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     forbidden: bool = False
     name: str = ""
-    points: tuple[tuple[float, float, float], ...] = ()
-    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    path: tuple[tuple[float, float, float], ...] = ()
+    points: tuple[Point, ...] = ()
+    velocity: Point = (0.0, 0.0, 0.0)
+    path: tuple[Point, ...] = ()
     speed: float = 0.0
+    turn_rate: float = 0.0
+    parts: tuple[tuple[Point, ...], ...] = ()
 
     @property
     def moves(self) -> bool:
         """Whether it moves by itself."""
-        return any(self.velocity) or bool(self.path)
+        return any(self.velocity) or bool(self.path) or self.turn_rate != 0.0
 
     def __post_init__(self) -> None:
         """Judge the numbers; raise SceneError."""
@@ -93,14 +102,22 @@ class Obstacle:
                 f"{title} is a sphere with size {list(self.size)}: make the three equal"
             )
         self._judge_motion(title)
-        if self.shape == "hull" and len(hull_planes(np.array(self.points))) < 4:
+        if self.shape == "hull" and len(self._hull_planes) < 4:
             raise SceneError(f"{title} is a hull of points that lie in one plane or on one line")
+        if (self.shape == "mesh") != bool(self.parts):
+            raise SceneError(f"{title}: a mesh has parts, and nothing else has; see Obstacle.mesh")
+        self.solids()  # each judges itself
 
     def _judge_motion(self, title: str) -> None:
         if not all(abs(v) <= FASTEST for v in self.velocity) or not abs(self.speed) <= FASTEST:
             raise SceneError(
                 f"{title} has the velocity {list(self.velocity)} and the speed {self.speed:g}; "
                 f"each must be a number of m/s within {FASTEST:g}"
+            )
+        if not abs(self.turn_rate) <= FASTEST_TURN:
+            raise SceneError(
+                f"{title} has the turn_rate {self.turn_rate:g}; "
+                f"it must be a number of rad/s within {FASTEST_TURN:g}"
             )
         if self.path and (any(self.velocity) or not self.speed > 0.0):
             raise SceneError(
@@ -121,7 +138,9 @@ class Obstacle:
         name: str = "",
     ) -> Obstacle:
         """Return a box, turned by `yaw` radians about +Y from +Z toward +X."""
-        return cls("box", _three(size), _three(position), from_yaw(yaw), forbidden, name)
+        return cls(
+            "box", three_numbers(size), three_numbers(position), from_yaw(yaw), forbidden, name
+        )
 
     @classmethod
     def sphere(
@@ -133,7 +152,7 @@ class Obstacle:
     ) -> Obstacle:
         """Return a ball of `diameter` metres."""
         size = (diameter, diameter, diameter)
-        return cls("sphere", size, _three(position), forbidden=forbidden, name=name)
+        return cls("sphere", size, three_numbers(position), forbidden=forbidden, name=name)
 
     @classmethod
     def cylinder(
@@ -148,7 +167,7 @@ class Obstacle:
         """Return a cylinder along its own y."""
         x, y, z, w = (float(q) for q in rotation)
         size = (diameter, height, diameter)
-        return cls("cylinder", size, _three(position), (x, y, z, w), forbidden, name)
+        return cls("cylinder", size, three_numbers(position), (x, y, z, w), forbidden, name)
 
     @classmethod
     def hull(
@@ -169,13 +188,68 @@ class Obstacle:
         x, y, z, w = (float(q) for q in rotation)
         return cls(
             "hull",
-            _three(np.maximum(np.ptp(array, axis=0), SMALLEST)),
-            _three(position),
+            _extent(array),
+            three_numbers(position),
             (x, y, z, w),
             forbidden,
             name,
-            tuple(_three(point) for point in array),
+            tuple(three_numbers(point) for point in array),
         )
+
+    @classmethod
+    def mesh(
+        cls,
+        path: str | Path,
+        position: Sequence[float],
+        rotation: Sequence[float] = (0.0, 0.0, 0.0, 1.0),
+        forbidden: bool = False,
+        name: str = "",
+        *,
+        size: Sequence[float] | None = None,
+        split: Split | None = None,
+    ) -> Obstacle:
+        """Return the solid that an .obj, .glb or .gltf file's surface bounds, as convex parts.
+
+        Args:
+            path: the file, y up.
+            position: of the centre of the mesh's box.
+            rotation: unit quaternion x, y, z, w.
+            forbidden: whether feet must keep off it.
+            name: of the obstacle.
+            size: what the mesh's box is scaled to; omitted: the file's units are metres.
+            split: how finely it is split into parts.
+
+        Raises:
+            SceneError: the file cannot be read or has an open surface, or splitting it takes the
+                library coacd and that is not installed.
+        """
+        from polypod.environment.splitting import Split, mesh_parts
+
+        wanted = None if size is None else three_numbers(size)
+        parts, extent = mesh_parts(Path(path), wanted, split or Split())
+        x, y, z, w = (float(q) for q in rotation)
+        return cls(
+            "mesh",
+            three_numbers(extent),
+            three_numbers(position),
+            (x, y, z, w),
+            forbidden,
+            name,
+            parts=tuple(tuple(three_numbers(point) for point in part) for part in parts),
+        )
+
+    def solids(self) -> tuple[Obstacle, ...]:
+        """Return the convex solids of which it is: itself, or a hull for each part of a mesh."""
+        if self.shape != "mesh":
+            return (self,)
+        return tuple(
+            replace(self, shape="hull", size=_extent(np.array(part)), points=part, parts=())
+            for part in self.parts
+        )
+
+    @cached_property
+    def _hull_planes(self) -> FloatArray:
+        return hull_planes(np.array(self.points))
 
     def planes(self) -> FloatArray:
         """Return planes [P, 4] (outward normal, offset; world): of a cylinder, a prism around it.
@@ -186,7 +260,7 @@ class Obstacle:
         if self.shape == "sphere":
             return np.zeros((0, 4))
         if self.shape == "hull":
-            local = hull_planes(np.array(self.points))
+            local = self._hull_planes
         else:
             half = 0.5 * np.array(self.size)
             caps = np.array([[0.0, 1.0, 0.0, half[1]], [0.0, -1.0, 0.0, half[1]]])
@@ -223,61 +297,14 @@ def from_yaw(yaw: float) -> tuple[float, float, float, float]:
     return (0.0, math.sin(0.5 * yaw), 0.0, math.cos(0.5 * yaw))
 
 
-def _three(values: Sequence[float] | NDArray[np.float64]) -> tuple[float, float, float]:
+def _extent(points: FloatArray) -> Point:
+    return three_numbers(np.maximum(np.ptp(points, axis=0), SMALLEST))
+
+
+def three_numbers(values: Sequence[float] | NDArray[np.float64]) -> Point:
+    """Return a size or a position; raise SceneError."""
     try:
         x, y, z = (float(value) for value in values)
     except (TypeError, ValueError):
         raise SceneError(f"a size or position must be three numbers, not {values!r}") from None
     return (x, y, z)
-
-
-def scatter(
-    terrain: Terrain,
-    count: int,
-    area: Sequence[float],
-    size: Sequence[Sequence[float]],
-    seed: int,
-    forbidden_share: float = 0.0,
-    name: str = "crate",
-) -> tuple[Obstacle, ...]:
-    """Return `count` boxes at random places and turns, each resting on the terrain.
-
-    Args:
-        terrain: what they stand on: a box goes down to the lowest ground under it.
-        count: how many.
-        area: x0, z0, x1, z1 in metres: where their centres lie.
-        size: the least and the greatest size, each x, y, z in metres.
-        seed: of the random numbers; the same seed gives the same boxes.
-        forbidden_share: share of the boxes, in [0, 1], that are forbidden (rounded to a count).
-        name: what comes before the number in each name.
-
-    Raises:
-        SceneError: a number is out of range, or the least is above the greatest.
-    """
-    x0, z0, x1, z1 = (float(value) for value in area)
-    least, greatest = np.array(_three(size[0])), np.array(_three(size[1]))
-    if count < 0 or not 0.0 <= forbidden_share <= 1.0:
-        raise SceneError(
-            f"scatter asks for {count} obstacles with a forbidden share of {forbidden_share:g}; "
-            "the count must be at least 0 and the share from 0 to 1"
-        )
-    ordered = x0 <= x1 and z0 <= z1 and bool(np.all(least <= greatest))
-    if not ordered or max(abs(x0), abs(x1), abs(z0), abs(z1)) > LARGEST or least.min() < SMALLEST:
-        raise SceneError(
-            "scatter needs area = [x0, z0, x1, z1] with x0 <= x1 and z0 <= z1, "
-            f"and size = [least, greatest] in that order, each at least {SMALLEST:g}"
-        )
-    random = np.random.default_rng(seed)
-    sizes = random.uniform(least, greatest, (count, 3))
-    places = random.uniform((x0, z0), (x1, z1), (count, 2))
-    yaws = random.uniform(0.0, 2.0 * math.pi, count)
-    forbidden = random.permutation(count) < round(forbidden_share * count)
-    made = []
-    for i in range(count):
-        here = (places[i, 0], 0.0, places[i, 1])
-        box = Obstacle.box(sizes[i], here, yaws[i], bool(forbidden[i]), f"{name}-{i + 1}")
-        height = terrain.lowest_in(box.footprint()) + 0.5 * sizes[i, 1]
-        made.append(
-            Obstacle.box(sizes[i], (here[0], height, here[2]), yaws[i], box.forbidden, box.name)
-        )
-    return tuple(made)

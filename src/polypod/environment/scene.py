@@ -7,18 +7,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from polypod.environment.convex_parts import COARSEST, FINEST
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import (
+    FASTEST_TURN,
     LARGEST,
     MOST_HULL_POINTS,
     SHAPES,
     SMALLEST,
     Obstacle,
     from_yaw,
-    scatter,
+    three_numbers,
 )
+from polypod.environment.scattering import scatter
 from polypod.environment.scene_terrain import LARGEST_SEED, read_terrain
 from polypod.environment.scene_values import SceneTable, shown, within
+from polypod.environment.splitting import MOST_PARTS, Split
 from polypod.environment.terrain import Terrain
 from polypod.errors import SceneError, choices
 
@@ -27,9 +31,10 @@ MOST_WAYPOINTS = 10_000
 LARGEST_TURN = 1e4  # rad
 FASTEST = 1e3  # m/s
 LATEST = 1e6  # s
-# Keys of the format that this version refuses: of meshes.
-LATER = ("file",)
-MOTION = ("velocity", "path", "speed")
+MOTION = ("velocity", "path", "speed", "turn_rate")
+SPLIT = ("concavity", "most_parts", "most_corners", "close")
+# What gives an obstacle of each shape its extent; all others have a size.
+EXTENT = {"hull": ("points",), "mesh": ("file", "size", *SPLIT)}
 
 
 @dataclass(frozen=True)
@@ -108,7 +113,7 @@ def read_scene(path: str | Path, seed: int = 0) -> Scene:
     terrain = Terrain.flat()
     if "terrain" in top:
         terrain = read_terrain(path, top.values["terrain"], seed)
-    obstacles = [_obstacle(place, entry) for place, entry in _entries(top, "obstacle")]
+    obstacles = [_obstacle(path, place, entry) for place, entry in _entries(top, "obstacle")]
     for place, entry in _entries(top, "scatter"):
         obstacles += _scatter(place, entry, terrain, seed)
     creatures = tuple(_creature(place, entry) for place, entry in _entries(top, "creature"))
@@ -130,57 +135,59 @@ def _entries(top: SceneTable, key: str) -> list[tuple[str, Any]]:
     return [(f"{top.place}: [[{key}]] number {i + 1}", entry) for i, entry in enumerate(entries)]
 
 
-def _obstacle(place: str, values: Any) -> Obstacle:
-    table = SceneTable(
-        place,
-        values,
-        (
-            "name",
-            "shape",
-            "size",
-            "points",
-            "position",
-            "yaw",
-            "rotation",
-            "forbidden",
-            *MOTION,
-            *LATER,
-        ),
-    )
+def _obstacle(path: Path, place: str, values: Any) -> Obstacle:
+    every = ("name", "shape", "position", "yaw", "rotation", "forbidden", *MOTION)
+    table = SceneTable(place, values, (*every, "size", "points", "file", *SPLIT))
     shape = table.text("shape")
-    if shape == "mesh":
-        raise SceneError(
-            f"{place}: meshes are not supported in this version; the shapes are {choices(SHAPES)}"
-        )
     if shape not in SHAPES:
         table.fail("shape", f"one of {choices(SHAPES)}")
-    for key in LATER:
-        if key in table:
-            raise SceneError(
-                f"{place} has {key}: meshes are not supported in this version; leave it out"
-            )
+    own = EXTENT.get(shape, ("size",))
+    # Keys of other shapes are refused with those that this one has.
+    table = SceneTable(f"{place}, a {shape},", values, (*every, *own))
     if "yaw" in table and "rotation" in table:
         raise SceneError(f"{place} has both yaw and rotation; leave one out")
-    if (shape == "hull") == ("size" in table) or (shape != "hull") == ("points" in table):
-        raise SceneError(f"{place} has the shape {shape}: a hull has points, all others a size")
     name = table.text("name", " ").strip()
     position = table.numbers("position", "x y z", None, -LARGEST, LARGEST)
-    rotation = from_yaw(table.number("yaw", 0.0, -LARGEST_TURN, LARGEST_TURN))
+    rotation: tuple[float, ...] = from_yaw(table.number("yaw", 0.0, -LARGEST_TURN, LARGEST_TURN))
     if "rotation" in table:
-        rotation = table.numbers("rotation", "x y z w", None, -1.01, 1.01)  # type: ignore[assignment]
+        rotation = table.numbers("rotation", "x y z w", None, -1.01, 1.01)
     forbidden = table.flag("forbidden", False)
 
     def make() -> Obstacle:
         if shape == "hull":
             points = table.rows("points", "x y z", 4, MOST_HULL_POINTS)
             still = Obstacle.hull(points, position, rotation, forbidden, name)
+        elif shape == "mesh":
+            still = _mesh(path, table, position, rotation, forbidden, name)
         else:
-            x, y, z = table.numbers("size", "x y z", None, SMALLEST, LARGEST)
-            centre = (position[0], position[1], position[2])
-            still = Obstacle(shape, (x, y, z), centre, rotation, forbidden, name)
+            size = three_numbers(table.numbers("size", "x y z", None, SMALLEST, LARGEST))
+            x, y, z, w = rotation
+            centre = three_numbers(position)
+            still = Obstacle(shape, size, centre, (x, y, z, w), forbidden, name)
         return replace(still, **_motion(table))
 
     return within(place, make)
+
+
+def _mesh(
+    path: Path,
+    table: SceneTable,
+    position: tuple[float, ...],
+    rotation: tuple[float, ...],
+    forbidden: bool,
+    name: str,
+) -> Obstacle:
+    """Return a mesh obstacle; its file is beside the scene's."""
+    usual = Split()
+    split = Split(
+        concavity=table.number("concavity", usual.concavity, FINEST, COARSEST),
+        most_parts=table.whole("most_parts", usual.most_parts, 1, MOST_PARTS),
+        most_corners=table.whole("most_corners", usual.most_corners, 4, MOST_HULL_POINTS),
+        close=table.flag("close", usual.close),
+    )
+    size = table.numbers("size", "x y z", None, SMALLEST, LARGEST) if "size" in table else None
+    file = path.parent / table.text("file")
+    return Obstacle.mesh(file, position, rotation, forbidden, name, size=size, split=split)
 
 
 def _motion(table: SceneTable) -> dict[str, Any]:
@@ -194,6 +201,8 @@ def _motion(table: SceneTable) -> dict[str, Any]:
         motion["path"] = tuple(table.rows("path", "x y z", 1, MOST_WAYPOINTS))
     if "speed" in table:
         motion["speed"] = table.number("speed", None, 0.0, FASTEST)
+    if "turn_rate" in table:
+        motion["turn_rate"] = table.number("turn_rate", None, -FASTEST_TURN, FASTEST_TURN)
     return motion
 
 

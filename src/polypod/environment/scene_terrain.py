@@ -10,8 +10,8 @@ from polypod.environment.generators import GENERATORS, generator_keys
 from polypod.environment.heightmaps import FORMATS, MOST_SAMPLES
 from polypod.environment.obstacles import LARGEST, SMALLEST
 from polypod.environment.scene_values import SceneTable, shown, within
-from polypod.environment.surfaces import MESHES
 from polypod.environment.terrain import Terrain, generated
+from polypod.environment.triangles import MESHES
 from polypod.errors import SceneError, choices
 
 LARGEST_SEED = 2**62

@@ -14,15 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.environment.heightmaps import MOST_SAMPLES, HeightField, filled
-from polypod.environment.obj import ObjReader
 from polypod.environment.obstacles import LARGEST, SMALLEST
-from polypod.errors import RigError, SceneError, choices
-from polypod.rigs.gltf import GltfDocument, MeshPart
+from polypod.environment.triangles import read_triangles
+from polypod.errors import SceneError
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-MESHES = (".obj", ".glb", ".gltf")
 CELLS_A_SIDE = 1024  # of the longer side, where no cell is asked for
 AT_ONCE = 1 << 18  # rows or samples in one array
 MOST_COVERED = 2_000_000_000  # rows and samples, summed over the triangles: some minutes
@@ -50,18 +48,9 @@ def read_mesh(path: str | Path, cell: float | None = None, scale: float = 1.0) -
             many samples.
     """
     path = Path(path)
-    if path.suffix.lower() not in MESHES:
-        raise SceneError(f"{path}: a mesh must be one of {choices(MESHES)}")
     if not SMALLEST <= scale <= LARGEST:
         raise SceneError(f"{path}: scale = {scale:g} must be from {SMALLEST:g} to {LARGEST:g}")
-    read = ObjReader(path).read if path.suffix.lower() == ".obj" else lambda: _read_gltf(path)
-    with np.errstate(all="ignore"):  # what is no number is refused below
-        triangles = read() * scale
-    if not bool(np.all(np.abs(triangles) <= LARGEST)):
-        raise SceneError(
-            f"{path}: a vertex is no number or not within {LARGEST:g} m of the origin; "
-            "scale says the metres of one unit of the file"
-        )
+    triangles = read_triangles(path, scale)
     return highest_surface(str(path), triangles, cell)
 
 
@@ -173,29 +162,3 @@ def _each(counts: IntArray) -> Iterator[tuple[IntArray, IntArray]]:
         thing = np.arange(start, min(start + AT_ONCE, total))
         owner = np.searchsorted(ends, thing, side="right")
         yield owner, thing - (ends - counts)[owner]
-
-
-def _read_gltf(path: Path) -> FloatArray:
-    """Return triangles [T, 3 corners, x y z] of all nodes, in the file's units and world."""
-    try:
-        document = GltfDocument.read(path)
-        parts = document.mesh_parts()
-    except RigError as error:
-        raise SceneError(str(error)) from None
-    found = [_posed(document, part)[part.triangles] for part in parts]
-    return np.concatenate([np.zeros((0, 3, 3)), *found])
-
-
-def _posed(document: GltfDocument, part: MeshPart) -> FloatArray:
-    """Return a part's vertices [V, 3] where its node, or the joints of its skin, have them."""
-    world = document.node_world_matrices()
-    if part.skin < 0:
-        return part.positions @ world[part.node, :3, :3].T + world[part.node, :3, 3]
-    skin = document.skins()[part.skin]
-    joints = world[skin.joints] @ skin.inverse_bind
-    posed = np.zeros_like(part.positions)
-    for slot in range(part.joints.shape[1]):
-        moved = joints[part.joints[:, slot]]
-        there = np.einsum("vij,vj->vi", moved[:, :3, :3], part.positions) + moved[:, :3, 3]
-        posed += part.weights[:, slot, None] * there
-    return posed

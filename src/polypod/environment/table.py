@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.compute import kernel
+from polypod.environment.buckets import bucket_at, bucket_line, first_met
+from polypod.environment.placing import own_point, world_direction
 from polypod.environment.shapes import (
     column_of,
     depth_inside,
@@ -30,11 +32,12 @@ GROUND = -1  # the support of a foot that stands on the terrain
 
 
 class EnvironmentTable(NamedTuple):
-    """Terrain and O obstacles in world metres; P planes and V corners are padded to the most.
+    """Terrain, and O obstacles of S convex solids; P planes and V corners are padded to the most.
 
-    Obstacles that move keep their rows: each question about obstacle o is asked `shift[o]` aside.
+    World metres. Most obstacles are one solid; a mesh is several that move as one. Obstacles that
+    move keep their rows: `placing` says where those are at a moment.
 
-    A vertical line meets only the obstacles listed in its bucket: bucket [r, c] of the plan holds
+    A vertical line meets only the solids listed in its bucket: bucket [r, c] of the plan holds
     `bucket_item[bucket_start[r * C + c] : bucket_start[r * C + c + 1]]`, in rising order.
     """
 
@@ -42,31 +45,37 @@ class EnvironmentTable(NamedTuple):
     terrain_place: FloatArray  # [3] x and z of sample [0, 0], metres between samples
     terrain_range: FloatArray  # [2] m: the lowest and the highest sample
     water: BoolArray  # [rows, columns] no foot may stand here; [0, 0] where there is no water
-    kind: IntArray  # [O] BOX, SPHERE or CYLINDER
-    position: FloatArray  # [O, 3] centre
-    rotation: FloatArray  # [O, 4] x, y, z, w
-    half_size: FloatArray  # [O, 3]
-    forbidden: BoolArray  # [O]
+    owner: IntArray  # [S] the obstacle of which each solid is (a part)
+    kind: IntArray  # [S] BOX, SPHERE or CYLINDER
+    position: FloatArray  # [S, 3] centre
+    rotation: FloatArray  # [S, 4] x, y, z, w
+    half_size: FloatArray  # [S, 3]
+    forbidden: BoolArray  # [S]
     forbidden_count: int  # how many of them are: most places have none, and need not be asked
-    planes: FloatArray  # [O, P, 4] outward normal n and offset d: inside where n . p <= d
-    plane_count: IntArray  # [O] of a cylinder: a prism around it; of a sphere: 0
-    footprint: FloatArray  # [O, V, 2] x, z: convex corners in plan, circumscribed for round shapes
-    footprint_side: FloatArray  # [O, V, 3] outward normal x, z and offset of the side from corner v
-    footprint_count: IntArray  # [O]
-    bounds: FloatArray  # [O, 6] least x, y, z, then greatest x, y, z
-    mover_count: int  # obstacles that move; they are the first rows of `movers`
-    movers: IntArray  # [movers] their indices
+    planes: FloatArray  # [S, P, 4] outward normal n and offset d: inside where n . p <= d
+    plane_count: IntArray  # [S] of a cylinder: a prism around it; of a sphere: 0
+    footprint: FloatArray  # [S, V, 2] x, z: convex corners in plan, circumscribed for round shapes
+    footprint_side: FloatArray  # [S, V, 3] outward normal x, z and offset of the side from corner v
+    footprint_count: IntArray  # [S]
+    bounds: FloatArray  # [S, 6] least x, y, z, then greatest x, y, z
+    radius: FloatArray  # [S] m: how far in plan it reaches from its obstacle's pivot
+    mover_count: int  # solids that move; they are the first rows of `movers`
+    movers: IntArray  # [movers] which
+    pivot: FloatArray  # [O, 3] an obstacle's position; it turns about the vertical through it
     shift: FloatArray  # [O, 3] how far each now is from where all the above has it
     velocity: FloatArray  # [O, 3] m/s, now
     turn_in: FloatArray  # [O] s until it takes another velocity, infinite where it keeps this one
     next_velocity: FloatArray  # [O, 3] m/s, from then on
     step: FloatArray  # [O, 3] by how much it moved in this frame
-    swept: FloatArray  # [O, 6] bounds of all that it will meet within the horizon
+    yaw: FloatArray  # [O] rad by which it is turned, about +Y from +Z toward +X
+    yaw_rate: FloatArray  # [O] rad/s
+    yaw_step: FloatArray  # [O] by how much it turned in this frame
+    swept: FloatArray  # [S, 6] bounds of all that it will meet within the horizon
     bucket_place: FloatArray  # [3] x and z of the corner of bucket [0, 0], side of a bucket, m
     bucket_shape: IntArray  # [2] rows (along z), columns (along x)
     bucket_start: IntArray  # [rows * columns + 1]
-    bucket_item: IntArray  # [items] obstacle indices
-    bucket_range: IntArray  # [O, 4] first row, first column, last row, last column (inclusive)
+    bucket_item: IntArray  # [items] solids
+    bucket_range: IntArray  # [S, 4] first row, first column, last row, last column (inclusive)
 
 
 @kernel
@@ -119,46 +128,6 @@ def ground_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
 
 
 @kernel
-def bucket_at(env: EnvironmentTable, x: float, z: float) -> int:
-    """Return the bucket of a plan point, or -1 where there is none."""
-    column = math.floor((x - env.bucket_place[0]) / env.bucket_place[2])
-    row = math.floor((z - env.bucket_place[1]) / env.bucket_place[2])
-    if row < 0 or column < 0 or row >= env.bucket_shape[0] or column >= env.bucket_shape[1]:
-        return -1
-    return int(row * env.bucket_shape[1] + column)
-
-
-@kernel
-def bucket_line(place: FloatArray, shape: IntArray, value: float, axis: int) -> int:
-    """Return the column (axis 0, of x) or row (axis 1, of z), moved into the grid."""
-    line = math.floor((value - place[axis]) / place[2])
-    return int(min(max(line, 0.0), shape[1 - axis] - 1.0))
-
-
-@kernel
-def first_met(bucket_range: IntArray, o: int, row: int, column: int, top: int, left: int) -> bool:
-    """Say whether bucket (row, column) is the first that lists `o` in a range that starts there.
-
-    A range of buckets from (top, left) lists an obstacle many times; this picks one of them.
-    """
-    met_row = max(top, bucket_range[o, 0])
-    met_column = max(left, bucket_range[o, 1])
-    return bool(row == met_row and column == met_column)
-
-
-@kernel
-def shift_of(env: EnvironmentTable, o: int, ahead: float) -> Vec3:
-    """Return how far obstacle `o` will be from where its rows have it, `ahead` seconds from now."""
-    before = min(ahead, env.turn_in[o])
-    after = ahead - before
-    return Vec3(
-        env.shift[o, 0] + env.velocity[o, 0] * before + env.next_velocity[o, 0] * after,
-        env.shift[o, 1] + env.velocity[o, 1] * before + env.next_velocity[o, 1] * after,
-        env.shift[o, 2] + env.velocity[o, 2] * before + env.next_velocity[o, 2] * after,
-    )
-
-
-@kernel
 def surface(env: EnvironmentTable, x: float, z: float) -> tuple[float, int]:
     """Return the height of the highest surface at a plan point now, and what it is."""
     return surface_at(env, x, z, 0.0)
@@ -171,26 +140,31 @@ def surface_at(env: EnvironmentTable, x: float, z: float, ahead: float) -> tuple
     Also what it is: the index of an obstacle, or GROUND (-1). Between equals the ground wins, then
     the lower index.
     """
+    height, solid = highest_at(env, x, z, ahead)
+    return height, env.owner[solid] if solid >= 0 else GROUND
+
+
+@kernel
+def highest_at(env: EnvironmentTable, x: float, z: float, ahead: float) -> tuple[float, int]:
+    """Return the height of the highest surface at a plan point, and its solid or GROUND."""
     height = ground_height(env, x, z)
-    support = GROUND
+    highest = GROUND
     bucket = bucket_at(env, x, z)
     if bucket >= 0:
         for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
             o = env.bucket_item[i]
-            shift = shift_of(env, o, ahead)
-            own_x = x - shift.x
-            own_z = z - shift.z
+            own = own_point(env, env.owner[o], Vec3(x, 0.0, z), ahead)
             if (
-                own_x >= env.bounds[o, 0]
-                and own_x <= env.bounds[o, 3]
-                and own_z >= env.bounds[o, 2]
-                and own_z <= env.bounds[o, 5]
+                own.x >= env.bounds[o, 0]
+                and own.x <= env.bounds[o, 3]
+                and own.z >= env.bounds[o, 2]
+                and own.z <= env.bounds[o, 5]
             ):
-                top = column_of(env, o, own_x, own_z)[1] + shift.y
+                top = column_of(env, o, own.x, own.z)[1] - own.y
                 if top > height:
                     height = top
-                    support = o
-    return height, support
+                    highest = o
+    return height, highest
 
 
 @kernel
@@ -202,11 +176,12 @@ def surface_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
 @kernel
 def surface_normal_at(env: EnvironmentTable, x: float, z: float, ahead: float) -> Vec3:
     """Return the unit normal of the highest surface at a plan point `ahead` seconds from now."""
-    support = surface_at(env, x, z, ahead)[1]
-    if support == GROUND:
+    solid = highest_at(env, x, z, ahead)[1]
+    if solid == GROUND:
         return ground_normal(env, x, z)
-    shift = shift_of(env, support, ahead)
-    return top_normal_of(env, support, x - shift.x, z - shift.z)
+    own = own_point(env, env.owner[solid], Vec3(x, 0.0, z), ahead)
+    normal = top_normal_of(env, solid, own.x, own.z)
+    return world_direction(env, env.owner[solid], normal, ahead)
 
 
 @kernel
@@ -233,8 +208,8 @@ def is_forbidden_at(env: EnvironmentTable, x: float, z: float, margin: float, ah
                     env.bucket_range, o, row, column, top, left
                 ):
                     continue
-                shift = shift_of(env, o, ahead)
-                if plan_distance(env, o, x - shift.x, z - shift.z) <= margin:
+                own = own_point(env, env.owner[o], Vec3(x, 0.0, z), ahead)
+                if plan_distance(env, o, own.x, own.z) <= margin:
                     return True
     return False
 
@@ -273,8 +248,8 @@ def penetration_at(env: EnvironmentTable, point_world: Vec3, ahead: float) -> tu
     if bucket >= 0:
         for i in range(env.bucket_start[bucket], env.bucket_start[bucket + 1]):
             o = env.bucket_item[i]
-            inside = depth_inside(env, o, point_world - shift_of(env, o, ahead))
+            inside = depth_inside(env, o, own_point(env, env.owner[o], point_world, ahead))
             if inside > depth:
                 depth = inside
-                support = o
+                support = env.owner[o]
     return depth, support

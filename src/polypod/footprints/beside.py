@@ -73,7 +73,7 @@ def try_beside(
             x = request.preferred_world.x + offset.x
             z = request.preferred_world.z + offset.z
             score, y = judge_place(
-                env, settings, request, legs, scratch.ahead, scratch.lift.near, x, z
+                env, settings, request, legs, scratch.ahead, scratch.ground, x, z
             )
             if score < 0.0:
                 continue

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.maps import LocalMap
 from polypod.environment.table import EnvironmentTable, is_forbidden
 from polypod.footprints.place import judge_place
-from polypod.footprints.scratch import SHORTER_STEPS, CandidateScratch
+from polypod.footprints.scratch import SHORTER_STEPS, CandidateScratch, GroundScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3, distance, load_vec3, mix, store_vec3
 from polypod.paths.apart import LegsAhead
@@ -167,7 +166,7 @@ def judge_shorter(
     legs: OtherLegs,
     legs_ahead: LegsAhead,
     window: LocalMap,
-    near: Any,
+    ground: GroundScratch,
     found: CandidateScratch,
     kept: int,
 ) -> int:
@@ -186,7 +185,7 @@ def judge_shorter(
             break
         row = int((point.z - window.place[1]) / cell)
         column = int((point.x - window.place[0]) / cell)
-        score, y = judge_place(env, settings, request, legs, legs_ahead, near, point.x, point.z)
+        score, y = judge_place(env, settings, request, legs, legs_ahead, ground, point.x, point.z)
         if score >= 0.0:
             keep_place(found, kept, score, Vec3(point.x, y, point.z), row, column)
             kept += 1
@@ -202,7 +201,7 @@ def judge_candidates(
     legs_ahead: LegsAhead,
     window: LocalMap,
     cells: int,
-    near: Any,
+    ground: GroundScratch,
     found: CandidateScratch,
     kept: int,
 ) -> int:
@@ -231,11 +230,13 @@ def judge_candidates(
         column = found.cell[best, 1]
         found.first_score[best] = STRUCK
         point = offer(window, row, column, request.preferred_world)
-        score, y = judge_place(env, settings, request, legs, legs_ahead, near, point.x, point.z)
+        score, y = judge_place(env, settings, request, legs, legs_ahead, ground, point.x, point.z)
         if score < 0.0:
             x = window.place[0] + (column + 0.5) * cell
             point = Vec3(x, 0.0, window.place[1] + (row + 0.5) * cell)
-            score, y = judge_place(env, settings, request, legs, legs_ahead, near, point.x, point.z)
+            score, y = judge_place(
+                env, settings, request, legs, legs_ahead, ground, point.x, point.z
+            )
         if score < 0.0:
             continue
         rule_out(window, found, cells, request.preferred_world, point, spacing)

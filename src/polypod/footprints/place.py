@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from polypod.compute import kernel
 from polypod.environment.movers import mover_depth
+from polypod.environment.placing import own_point, world_point
 from polypod.environment.table import (
     EnvironmentTable,
     is_forbidden_at,
-    is_wet,
     surface_at,
 )
+from polypod.footprints.bearing import is_borne
+from polypod.footprints.evenness import edge_score, even_score, lay_tread
+from polypod.footprints.legs import REJECTED, leg_factor
+from polypod.footprints.relief import is_tread_wet
+from polypod.footprints.scratch import GroundScratch
 from polypod.footprints.settings import (
     FootShape,
     PlanSettings,
     StepRequest,
+    Tread,
     foot_shape,
     landing_time,
 )
 from polypod.math.vec3 import Vec3, distance
-from polypod.paths.apart import LegsAhead, place_factor
-from polypod.paths.check import leg_gap
+from polypod.paths.apart import LegsAhead
 from polypod.paths.near import obstacles_near
 from polypod.paths.scratch import OtherLegs
 
-REJECTED = -1.0
 # Directions in which the next step may leave a place: angle from the course, and how good that is.
 EXITS = 5
 EXIT_ANGLE = 0.7  # radians between two of them
@@ -41,74 +44,6 @@ LOWEST = -1e300
 SAFE_STANCE = 0.6
 STAND_SAMPLES = 4
 ON_FOOT = 0.03
-
-
-@kernel
-def even_score(
-    env: EnvironmentTable,
-    foot: FootShape,
-    toe: float,
-    steepest: float,
-    tolerance: float,
-    x: float,
-    y: float,
-    z: float,
-    ahead: float,
-) -> float:
-    """Return 1 for a plane under the foot's shape down to 0 at the tolerance; REJECTED beyond.
-
-    Four points on the shape's outline give the plane; four more, further out, tell what part of the
-    surroundings continues it: beside an edge or a wall the score falls to half.
-    """
-    sine = foot.sine
-    cosine = foot.cosine
-    half_x = foot.half_x + toe
-    half_z = foot.half_z + toe
-    east, _ = surface_at(env, x + half_x * cosine, z - half_x * sine, ahead)
-    west, _ = surface_at(env, x - half_x * cosine, z + half_x * sine, ahead)
-    north, _ = surface_at(env, x + half_z * sine, z + half_z * cosine, ahead)
-    south, _ = surface_at(env, x - half_z * sine, z - half_z * cosine, ahead)
-    slope_x = (east - west) / (2.0 * half_x)
-    slope_z = (north - south) / (2.0 * half_z)
-    if slope_x * slope_x + slope_z * slope_z > steepest * steepest:
-        return REJECTED
-    rough = max(abs(east + west - 2.0 * y), abs(north + south - 2.0 * y)) * 0.5
-    for corner in range(4):
-        a = half_x if corner < 2 else -half_x
-        b = half_z if corner % 2 == 0 else -half_z
-        height, _ = surface_at(env, x + a * cosine + b * sine, z - a * sine + b * cosine, ahead)
-        rough = max(rough, abs(height - y - slope_x * a - slope_z * b))
-    return REJECTED if rough > tolerance else 1.0 - rough / tolerance
-
-
-@kernel
-def edge_score(
-    env: EnvironmentTable,
-    foot: FootShape,
-    out: float,
-    steepest: float,
-    drop: float,
-    x: float,
-    y: float,
-    z: float,
-    ahead: float,
-) -> float:
-    """Return the share of a ring about the foot that continues its surface without edge or wall."""
-    ring_x = foot.half_x + out
-    ring_z = foot.half_z + out
-    good = 0.0
-    for k in range(4):
-        # Opposite points: on any slope their mean is the height between them.
-        a = ring_x * (1.0 if k == 0 else (0.7 if k != 2 else 0.0))
-        b = ring_z * (1.0 if k == 2 else (0.7 if k == 1 else (-0.7 if k == 3 else 0.0)))
-        dx = a * foot.cosine + b * foot.sine
-        dz = -a * foot.sine + b * foot.cosine
-        there, _ = surface_at(env, x + dx, z + dz, ahead)
-        opposite, _ = surface_at(env, x - dx, z - dz, ahead)
-        steep = max(abs(there - y), abs(opposite - y)) > steepest * math.hypot(dx, dz)
-        if abs(there + opposite - 2.0 * y) <= drop and not steep:
-            good += 0.25
-    return good
 
 
 @kernel
@@ -153,45 +88,11 @@ def exit_score(
 
 @kernel
 def is_foot_wet(env: EnvironmentTable, foot: FootShape, x: float, z: float) -> bool:
-    """Return whether the middle or a corner of the foot's shape lies in water."""
-    if env.water.shape[0] == 0:
-        return False
-    for corner in range(5):
-        a = foot.half_x * (0.0 if corner == 4 else (1.0 if corner < 2 else -1.0))
-        b = foot.half_z * (0.0 if corner == 4 else (1.0 if corner % 2 == 0 else -1.0))
-        at_x = x + a * foot.cosine + b * foot.sine
-        if is_wet(env, at_x, z - a * foot.sine + b * foot.cosine):
-            return True
-    return False
-
-
-@kernel
-def leg_factor(
-    settings: PlanSettings,
-    request: StepRequest,
-    legs: OtherLegs,
-    legs_ahead: LegsAhead,
-    place: Vec3,
-) -> float:
-    """Return 1, less where legs come near or cross, or REJECTED where another is in the place."""
-    leg = request.leg_length
-    foot = max(request.foot_half_x, request.foot_half_z)
-    for s in range(request.other_foot_count):
-        clear = legs.radius[s] + foot + settings.leg_gap * leg
-        gap = leg_gap(legs, s, place.x, place.z)
-        if gap < clear:
-            at_start = leg_gap(legs, s, request.start_world.x, request.start_world.z)
-            if gap < 0.999 * at_start:
-                return REJECTED
-    # Its own side of the body: no further across than the preferred place is out.
-    side = request.side
-    away = place - request.body_position
-    out = away.x * side.x + away.z * side.z
-    wanted = (request.preferred_world.x - request.body_position.x) * side.x + (
-        request.preferred_world.z - request.body_position.z
-    ) * side.z
-    factor = place_factor(legs_ahead, request, place)
-    return factor * settings.crossing if out < min(0.0, wanted) else factor
+    """Return whether any of the foot's shape lies in water."""
+    tread = Tread(
+        x, 0.0, z, foot.half_x, foot.half_z, foot.sine, foot.cosine, 0.0, 0.0, 0.0, 0.0, 0.0
+    )
+    return is_tread_wet(env, tread)
 
 
 @kernel
@@ -227,15 +128,18 @@ def is_run_over(
 
     `support` is what the foot will stand on, and be carried by.
     """
-    drift = Vec3(0.0, 0.0, 0.0)
-    if support >= 0:
-        drift = Vec3(env.velocity[support, 0], env.velocity[support, 1], env.velocity[support, 2])
     leg = request.leg_length
     over = place + Vec3(0.0, ON_FOOT * leg, 0.0)
     radius = max(request.foot_half_x, request.foot_half_z) + settings.forbidden_margin * leg
+    own = over
+    if support >= 0:
+        own = own_point(env, support, over, ahead)
     for k in range(1, STAND_SAMPLES + 1):
         later = request.stance_seconds * SAFE_STANCE * k / STAND_SAMPLES
-        if mover_depth(env, over + drift * later, ahead + later, support) > -radius:
+        there = over
+        if support >= 0:
+            there = world_point(env, support, own, ahead + later)
+        if mover_depth(env, there, ahead + later, support) > -radius:
             return True
     return False
 
@@ -247,7 +151,7 @@ def judge_place(
     request: StepRequest,
     legs: OtherLegs,
     legs_ahead: LegsAhead,
-    near: Any,
+    ground: GroundScratch,
     x: float,
     z: float,
 ) -> tuple[float, float]:
@@ -259,7 +163,7 @@ def judge_place(
         request: the step.
         legs: the other legs, of which `request.other_foot_count` segments count.
         legs_ahead: all of them as they will be.
-        near: scratch for a list of obstacles.
+        ground: scratch.
         x: world x, m.
         z: world z, m.
     """
@@ -281,16 +185,14 @@ def judge_place(
     even = edge = leave = 1.0
     flat = env.terrain_range[0] == env.terrain_range[1]
     wide = 1.5 * (foot.radius + max(settings.edge, settings.toe) * leg)
-    if (
-        not flat
-        or obstacles_near(env, at_x - wide, at_z - wide, at_x + wide, at_z + wide, LOWEST, near) > 0
-    ):
+    count = obstacles_near(
+        env, at_x - wide, at_z - wide, at_x + wide, at_z + wide, LOWEST, ground.near
+    )
+    if not flat or count > 0:
         middle, _ = surface_at(env, at_x, at_z, ahead)
-        tolerance = settings.uneven * leg + settings.uneven_foot * foot.radius
-        even = even_score(
-            env, foot, settings.toe * leg, settings.slope, tolerance, at_x, middle, at_z, ahead
-        )
-        if even < 0.0:
+        tread, rough = lay_tread(env, settings, foot, leg, Vec3(at_x, middle, at_z), ahead)
+        even = even_score(env, tread, rough, settings.slope)
+        if even < 0.0 or not is_borne(env, tread, count, ground):
             return REJECTED, y
         edge = edge_score(
             env, foot, settings.edge * leg, settings.slope, settings.drop * leg, at_x, middle,
@@ -302,7 +204,7 @@ def judge_place(
     high = y + TOO_HIGH * request.reach_max
     if step > SHORTEST_COURSE * leg and (
         env.terrain_range[1] > high
-        or obstacles_near(env, x - step, z - step, x + step, z + step, high, near) > 0
+        or obstacles_near(env, x - step, z - step, x + step, z + step, high, ground.near) > 0
     ):
         heading = math.atan2(course_x, course_z)
         leave = exit_score(env, margin, x, z, high, heading, step, ahead)
@@ -310,7 +212,7 @@ def judge_place(
     if factor < 0.0:
         return REJECTED, y
     away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)
-    near = max(1.0 - away / max(request.search_radius, 1e-300), 0.0)
+    close = max(1.0 - away / max(request.search_radius, 1e-300), 0.0)
     level = max(1.0 - abs(y - request.level_height) / (settings.rise * leg), 0.0)
     whole = (
         request.level_weight
@@ -322,7 +224,7 @@ def judge_place(
     )
     score = (
         request.level_weight * level
-        + settings.weight_distance * near
+        + settings.weight_distance * close
         + settings.weight_even * even
         + settings.weight_edge * edge
         + settings.weight_reach * reach

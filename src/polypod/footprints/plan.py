@@ -171,7 +171,6 @@ def search(
     wanted = request.preferred_world
     y, _ = surface_at(env, wanted.x, wanted.z, landing_time(request))
     window = scratch.window
-    near = scratch.lift.near
     fill_window(env, settings, request, window)
     close_cells(env, settings, request, legs, window, scratch.grid)
     cells = list_cells(settings, request, window, scratch.grid, scratch.found)
@@ -184,12 +183,21 @@ def search(
         scratch.found.place_cell[0, 1] = int((wanted.x - window.place[0]) / window.place[2])
     if direct_score < POOR:
         kept = judge_shorter(
-            env, settings, request, legs, scratch.ahead, window, near, scratch.found, kept
+            env, settings, request, legs, scratch.ahead, window, scratch.ground, scratch.found, kept
         )
     # Where no pair of the first candidates is good, the next ones get their turn.
     for _ in range(ROUNDS):
         kept = judge_candidates(
-            env, settings, request, legs, scratch.ahead, window, cells, near, scratch.found, kept
+            env,
+            settings,
+            request,
+            legs,
+            scratch.ahead,
+            window,
+            cells,
+            scratch.ground,
+            scratch.found,
+            kept,
         )
         if kept == 0:
             break
@@ -247,7 +255,7 @@ def plan_step(
     best = NOTHING
     near = scratch.lift.near
     place_score, y = judge_place(
-        env, settings, request, legs, scratch.ahead, near, wanted.x, wanted.z
+        env, settings, request, legs, scratch.ahead, scratch.ground, wanted.x, wanted.z
     )
     if place_score >= 0.0:
         end = Vec3(wanted.x, y, wanted.z)

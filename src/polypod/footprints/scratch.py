@@ -15,6 +15,8 @@ from polypod.paths.scratch import GridScratch, LiftScratch, grid_scratch, lift_s
 
 MAP_CELLS = 70  # most cells a side
 SHORTER_STEPS = 4  # looked at where the preferred place is poor, as where legs would touch
+# Of a place: solids near it, corners of a polygon, sides of what bears a foot.
+MOST_NEAR, MOST_CORNERS, MOST_LINES = 128, 64, 128
 
 # Rows of `PlanScratch.tally`.
 TALLY_DIRECT = 0  # 1: the direct swing ended the search
@@ -33,6 +35,15 @@ class CandidateScratch(NamedTuple):
     score: NDArray[np.float64]  # [C] in [0, 1]
 
 
+class GroundScratch(NamedTuple):
+    """Solids about a place, and what they cut of the foot's shape."""
+
+    near: NDArray[np.int64]  # [N] solids
+    corner: NDArray[np.float64]  # [2, V, 2] m: a polygon, and the same with a piece cut off
+    line: NDArray[np.float64]  # [L, 3] sides of what bears the foot: normal a, b, and offset, m
+    line_of: NDArray[np.int64]  # [L] the solid that each is of
+
+
 class PlanScratch(NamedTuple):
     """Everything `plan_step` writes besides its answer; the caller fills the other legs."""
 
@@ -44,6 +55,7 @@ class PlanScratch(NamedTuple):
     grid: GridScratch
     lift: LiftScratch
     found: CandidateScratch
+    ground: GroundScratch
     trial: PathRow  # the path being tried
     tally: NDArray[np.int64]  # [4] what the last request took, for display and measurements
 
@@ -72,6 +84,17 @@ def make_plan_scratch(settings: PlanSettings, ahead: LegsAhead) -> PlanScratch:
             place_cell=np.zeros((places, 2), np.int64),
             score=np.zeros(places),
         ),
+        ground=ground_scratch(),
         trial=path_store(),
         tally=np.zeros(4, np.int64),
+    )
+
+
+def ground_scratch() -> GroundScratch:
+    """Return the memory in which places are judged."""
+    return GroundScratch(
+        near=np.zeros(MOST_NEAR, np.int64),
+        corner=np.zeros((2, MOST_CORNERS, 2)),
+        line=np.zeros((MOST_LINES, 3)),
+        line_of=np.zeros(MOST_LINES, np.int64),
     )

@@ -77,6 +77,23 @@ class FootShape(NamedTuple):
     middle_z: float
 
 
+class Tread(NamedTuple):
+    """The sole's shape on the plane on which it would stand; its axes are a across and b along."""
+
+    x: float  # world, m: its middle
+    y: float
+    z: float
+    half_a: float
+    half_b: float
+    sine: float  # of the heading
+    cosine: float
+    slope_a: float  # rise of the plane along each axis
+    slope_b: float
+    tolerance: float  # m that the ground may be above or below the plane
+    gap: float  # m: gaps up to twice as wide are none
+    ahead: float  # s from now for which it is asked
+
+
 class StepRequest(NamedTuple):
     """One foot's step: world frame, metres, seconds, radians."""
 

@@ -125,7 +125,7 @@ def crowd(
     count: int, threads: int, seed: int = 0, seconds: float = (START_FRAMES + FRAMES) / FPS
 ) -> World:
     """Return spiders in rows that walk over as many crates for each, whatever their number."""
-    from polypod.environment.obstacles import scatter
+    from polypod.environment.scattering import scatter
     from polypod.environment.terrain import Terrain
     from polypod.morphology.load import load_rig
     from polypod.world import World, rows
@@ -177,7 +177,7 @@ def walk_ms(moving: bool) -> float:
     """
     from dataclasses import replace
 
-    from polypod.environment.obstacles import scatter
+    from polypod.environment.scattering import scatter
     from polypod.environment.terrain import Terrain
     from polypod.morphology.load import load_rig
     from polypod.world import World

@@ -19,7 +19,7 @@ def run(given: argparse.Namespace) -> int:
     with telling_of_compilation():
         from polypod.cache import kernel_cache_folder
         from polypod.environment.environment import Environment
-        from polypod.environment.obstacles import scatter
+        from polypod.environment.scattering import scatter
         from polypod.environment.terrain import Terrain
         from polypod.gait.tempo import top_speed
         from polypod.morphology.load import load_rig

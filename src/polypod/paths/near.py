@@ -1,18 +1,19 @@
-"""Which obstacles are near enough to be asked at all."""
+"""Which solids are near enough to be asked at all."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.environment.table import EnvironmentTable, bucket_line, first_met
+from polypod.environment.buckets import bucket_line, first_met
+from polypod.environment.table import EnvironmentTable
 
 
 @kernel
 def obstacles_near(
     env: EnvironmentTable, x0: float, z0: float, x1: float, z1: float, above: float, near: Any
 ) -> int:
-    """List the obstacles whose bounds meet a rectangle in plan; return how many there are.
+    """List the solids whose bounds meet a rectangle in plan; return how many there are.
 
     Only those count that are forbidden or reach higher than `above` (m). As many as fit are written
     to `near`; the count goes on.
@@ -47,7 +48,7 @@ def obstacles_near(
 def meets_near(
     env: EnvironmentTable, near: Any, count: int, x: float, z: float, margin: float, height: float
 ) -> int:
-    """Return 0 where no listed obstacle can matter to a foot at a place, 2 for a forbidden one.
+    """Return 0 where no listed solid can matter to a foot at a place, 2 for a forbidden one.
 
     1 for others: within `margin` (m) of the bounds of its way in plan, and higher than `height`.
     """

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from polypod.environment.shapes import CYLINDER, SPHERE
 from polypod.environment.table import EnvironmentTable
-from polypod.report.arrays import FloatArray, conjugate_all, rotate_all
+from polypod.report.arrays import FloatArray, conjugate_all, multiply_all, rotate_all
 from polypod.report.record import Recording
 
 BoolArray = NDArray[np.bool_]
@@ -27,41 +27,53 @@ class Ground:
     """
 
     def __init__(self, environment: EnvironmentTable, recording: Recording | None = None) -> None:
-        """Read the table, and from a recording how far [F, O, 3] its obstacles were from there."""
+        """Read the table, and from a recording where its obstacles were, and how turned."""
         self.environment = environment
-        self.shift: FloatArray | None = None
-        self.movers = frozenset(int(i) for i in environment.movers)
+        self.place: FloatArray | None = None  # [F, O, 3] m
+        self.yaw = np.zeros((0, 0))  # [F, O] rad, against how each was made
+        self.movers = frozenset(int(environment.owner[i]) for i in environment.movers)
         if recording is not None and self.movers:
-            recorded = recording.obstacle_position.shape[1]
-            self.shift = recording.obstacle_position - environment.position[:recorded]
-        self.forbidden = frozenset(int(i) for i in np.flatnonzero(environment.forbidden))
+            self.place = recording.obstacle_position
+            _, first = np.unique(environment.owner, return_index=True)
+            made = environment.rotation[first[: self.place.shape[1]]]
+            spin = multiply_all(recording.obstacle_rotation, conjugate_all(made))
+            # They turn about the vertical only.
+            yaw = 2.0 * np.arctan2(spin[..., 1], spin[..., 3])
+            self.yaw = np.unwrap(yaw, axis=0)
+        self.forbidden_solids = [int(i) for i in np.flatnonzero(environment.forbidden)]
+        self.forbidden = frozenset(int(environment.owner[i]) for i in self.forbidden_solids)
 
-    def shift_of(self, index: int, frame: ArrayLike | None) -> FloatArray:
-        """Return how far [N, 3] an obstacle was from where its rows have it, or zero [3]."""
-        if self.shift is None or frame is None or index not in self.movers:
-            return np.zeros(3)
-        place = np.asarray(frame, dtype=np.float64)
-        row = np.minimum(place.astype(np.int64), max(len(self.shift) - 2, 0))
-        share = (place - row)[:, None]
-        after = np.minimum(row + 1, len(self.shift) - 1)
-        shift: FloatArray = (
-            self.shift[row, index] * (1.0 - share) + self.shift[after, index] * share
-        )
-        return shift
+    def own_points(self, index: int, points: FloatArray, frame: ArrayLike | None) -> FloatArray:
+        """Return points [N, 3] as they lay to the table's rows of a solid in their frames [N]."""
+        owner = int(self.environment.owner[index])
+        if self.place is None or frame is None or owner not in self.movers:
+            return points
+        moment = np.asarray(frame, dtype=np.float64)
+        row = np.minimum(moment.astype(np.int64), max(len(self.place) - 2, 0))
+        after = np.minimum(row + 1, len(self.place) - 1)
+        share = moment - row
+        place = self.place[row, owner] * (1.0 - share)[:, None]
+        place = place + self.place[after, owner] * share[:, None]
+        yaw = self.yaw[row, owner] * (1.0 - share) + self.yaw[after, owner] * share
+        x, y, z = (points - place).T
+        sine, cosine = np.sin(yaw), np.cos(yaw)
+        turned = np.stack([x * cosine - z * sine, y, x * sine + z * cosine], axis=1)
+        own: FloatArray = self.environment.pivot[owner] + turned
+        return own
 
     def surface(self, x: FloatArray, z: FloatArray, frame: ArrayLike | None = None) -> FloatArray:
         """Return the height [N] of what stands highest over each place of the plan, m."""
         table = self.environment
         highest = terrain_height(table, x, z)
+        flat = np.stack([x, np.zeros(len(x)), z], axis=1)
         for index in range(len(table.kind)):
             least, most = table.bounds[index, :3], table.bounds[index, 3:]
-            shift = np.broadcast_to(self.shift_of(index, frame), (len(x), 3))
-            own_x, own_z = x - shift[:, 0], z - shift[:, 2]
+            own_x, own_y, own_z = self.own_points(index, flat, frame).T
             near = np.flatnonzero(
                 (own_x >= least[0]) & (own_x <= most[0]) & (own_z >= least[2]) & (own_z <= most[2])
             )
             if near.size:
-                top = self._top(index, own_x[near], own_z[near]) + shift[near, 1]
+                top = self._top(index, own_x[near], own_z[near]) - own_y[near]
                 highest[near] = np.maximum(highest[near], top)
         return highest
 
@@ -74,7 +86,7 @@ class Ground:
         deepest = np.maximum(terrain_height(table, points[:, 0], points[:, 2]) - points[:, 1], 0.0)
         for index in range(len(table.kind)):
             bounds = table.bounds[index]
-            own = points - self.shift_of(index, frame)
+            own = self.own_points(index, points, frame)
             near = np.flatnonzero(((own >= bounds[:3]) & (own <= bounds[3:])).all(axis=1))
             if near.size:
                 deepest[near] = np.maximum(deepest[near], self._depth(index, own[near]))
@@ -84,15 +96,15 @@ class Ground:
         """Return which points [N, 3] lie over the plan outline of a forbidden obstacle."""
         table = self.environment
         over = np.zeros(len(points), np.bool_)
-        for index in self.forbidden:
+        for index in self.forbidden_solids:
             side = table.footprint_side[index, : table.footprint_count[index]]
-            own = points - self.shift_of(index, frame)
+            own = self.own_points(index, points, frame)
             beyond = own[:, [0, 2]] @ side[:, :2].T - side[:, 2]
             over |= (beyond < 0.0).all(axis=1)
         return over
 
     def _depth(self, index: int, points: FloatArray) -> FloatArray:
-        """Return how deep points [N, 3] are inside one obstacle; 0 outside."""
+        """Return how deep points [N, 3] are inside one solid; 0 outside."""
         table = self.environment
         offset = points - table.position[index]
         if table.kind[index] == SPHERE:
@@ -108,7 +120,7 @@ class Ground:
         return depth
 
     def _top(self, index: int, x: FloatArray, z: FloatArray) -> FloatArray:
-        """Return where vertical lines leave one obstacle, minus infinity where they miss it."""
+        """Return where vertical lines leave one solid, minus infinity where they miss it."""
         table = self.environment
         if table.kind[index] == SPHERE:
             centre, radius = table.position[index], table.half_size[index, 0]

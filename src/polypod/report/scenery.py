@@ -90,7 +90,7 @@ def _wet(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> NDArray
 
 
 class Obstacles:
-    """The obstacles' surfaces, cut out of their planes once."""
+    """The surfaces of the obstacles' solids, cut out of their planes once."""
 
     def __init__(self, environment: EnvironmentTable, recorded: int) -> None:
         """Prepare; what the table lists beyond the `recorded` obstacles is part of the terrain."""
@@ -99,7 +99,7 @@ class Obstacles:
         self._surfaces: dict[int, tuple[FloatArray, IntArray]] = {}
 
     def add(self, scene: Scene, recording: Recording, frame: int, shown: NDArray[np.bool_]) -> None:
-        """Add the obstacles for which `shown` [O] holds, where they are in that frame."""
+        """Add the solids for which `shown` [S] holds, where they are in that frame."""
         positions: list[FloatArray] = []
         triangles: list[IntArray] = []
         colours: list[FloatArray] = []
@@ -112,31 +112,44 @@ class Obstacles:
             scene.add(np.concatenate(positions), np.concatenate(triangles), np.concatenate(colours))
 
     def _colour(self, index: int) -> FloatArray:
-        if index >= self.recorded:
+        owner = int(self.environment.owner[index])
+        if owner >= self.recorded:
             return STONE
         colour = FORBIDDEN if self.environment.forbidden[index] else CRATE
         # Neighbouring crates differ a little, so that a heap can be read.
-        varied: FloatArray = colour * (1.0 - 0.10 * (((index * 7) % 5) / 4.0))
+        varied: FloatArray = colour * (1.0 - 0.10 * (((owner * 7) % 5) / 4.0))
         return varied
 
+    def centres(self, recording: Recording, frame: int) -> FloatArray:
+        """Return the middles [S, 3] of the solids' bounds, where they are in a frame."""
+        bounds = self.environment.bounds
+        middle: FloatArray = 0.5 * (bounds[:, :3] + bounds[:, 3:])
+        for index in range(len(middle)):
+            middle[index] = self._moved(middle[index], recording, frame, index)
+        return middle
+
     def _placed(self, recording: Recording, frame: int, index: int) -> tuple[FloatArray, IntArray]:
-        """Return world positions and triangles of an obstacle in a frame."""
-        table = self.environment
+        """Return world positions and triangles of a solid in a frame."""
         if index not in self._surfaces:
-            self._surfaces[index] = obstacle_surface(table, index)
+            self._surfaces[index] = obstacle_surface(self.environment, index)
         positions, triangles = self._surfaces[index]
-        if index < self.recorded:
-            local = rotate_all(
-                conjugate_all(table.rotation[index]), positions - table.position[index]
-            )
-            positions = recording.obstacle_position[frame, index] + rotate_all(
-                recording.obstacle_rotation[frame, index], local
-            )
-        return positions, triangles
+        return self._moved(positions, recording, frame, index), triangles
+
+    def _moved(
+        self, points: FloatArray, recording: Recording, frame: int, index: int
+    ) -> FloatArray:
+        """Return where points [..., 3] among a solid's rows are in a frame, world."""
+        table, owner = self.environment, int(self.environment.owner[index])
+        if owner >= self.recorded:
+            return points
+        local = rotate_all(conjugate_all(table.rotation[index]), points - table.pivot[owner])
+        turned = rotate_all(recording.obstacle_rotation[frame, owner], local)
+        moved: FloatArray = recording.obstacle_position[frame, owner] + turned
+        return moved
 
 
 def obstacle_surface(environment: EnvironmentTable, index: int) -> tuple[FloatArray, IntArray]:
-    """Return world positions [V, 3] and triangles [T, 3] of an obstacle's surface."""
+    """Return world positions [V, 3] and triangles [T, 3] of a solid's surface."""
     if environment.kind[index] == SPHERE:
         return _ball(environment.position[index], float(environment.half_size[index, 0]))
     planes = environment.planes[index, : environment.plane_count[index]]

@@ -51,7 +51,7 @@ def stance_figures(
     inside = ground.penetration(standing, frame)
     residual = np.linalg.norm(standing - recording.foot_target[stance], axis=1)
     both = stance[1:] & stance[:-1]
-    own = place - _carried(recording)
+    own = _seen_from_support(recording, place)
     travel = np.linalg.norm((own[1:] - own[:-1])[both][:, [0, 2]], axis=1)
     slips = slip_per_stance(recording, place)
     return {
@@ -66,12 +66,16 @@ def stance_figures(
     }
 
 
-def _carried(recording: Recording) -> FloatArray:
-    """Return where what each foot stands on is [F, K, 3], m; zero for the ground."""
-    place = np.zeros_like(recording.foot_position)
+def _seen_from_support(recording: Recording, place: FloatArray) -> FloatArray:
+    """Return places of feet [F, K, 3] as what each stands on sees them, along its first axes."""
+    own = place.copy()
     frame, foot = np.nonzero(recording.foot_stance & (recording.foot_support >= 0))
-    place[frame, foot] = recording.obstacle_position[frame, recording.foot_support[frame, foot]]
-    return place
+    support = recording.foot_support[frame, foot]
+    if len(support):
+        now, first = recording.obstacle_rotation[frame, support], recording.obstacle_rotation[0]
+        arm = place[frame, foot] - recording.obstacle_position[frame, support]
+        own[frame, foot] = rotate_all(first[support], rotate_all(conjugate_all(now), arm))
+    return own
 
 
 def _largest(values: FloatArray) -> float | None:

@@ -229,7 +229,8 @@ class _Drawing:
         reach = math.hypot(half_width, min(depth_reach, 4.0 * half_width)) + 2.0 * self.leg_length
         scene = Scene()
         scenery.add_ground(scene, self.environment, camera.centre, reach)
-        near = self._near_obstacles(camera, reach, cut=elevation < math.radians(20.0))
+        cut = elevation < math.radians(20.0)
+        near = self._near_obstacles(camera, poses[0], reach, cut)
         self.obstacles.add(scene, self.leader, poses[0], near)
         for walker in self.walkers:
             for frame in poses:
@@ -261,10 +262,10 @@ class _Drawing:
         """Return how far the creature reaches toward the viewer from the view's centre, m."""
         return float((self.spread @ camera.toward).max()) + 0.3 * self.leg_length
 
-    def _near_obstacles(self, camera: Camera, reach: float, cut: bool) -> np.ndarray:
-        """Return [O] which obstacles to draw: near ones, and none that would hide the creature."""
+    def _near_obstacles(self, camera: Camera, frame: int, reach: float, cut: bool) -> np.ndarray:
+        """Return [S] which solids to draw: near ones, and none that would hide the creature."""
         bounds = self.environment.bounds
-        centre = 0.5 * (bounds[:, :3] + bounds[:, 3:])
+        centre = self.obstacles.centres(self.leader, frame)
         size = 0.5 * np.linalg.norm(bounds[:, 3:] - bounds[:, :3], axis=1)
         offset = centre - camera.centre
         shown: np.ndarray = np.linalg.norm(offset[:, [0, 2]], axis=1) - size < reach
