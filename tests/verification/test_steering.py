@@ -29,12 +29,13 @@ def _at_rest(herd: Herd) -> None:
 
 
 def step(herd: Herd, pose: PlanPose, dt: float) -> PlanPose:
-    return steer(pose, 0, herd.kernel_command, herd.kernel_tables, herd.kernel_settings, dt)
+    tables, settings = herd.kernel_tables, herd.kernel_settings
+    return steer(pose, 0, herd.kernel_state, herd.kernel_command, tables, settings, dt)
 
 
 def ahead(herd: Herd, pose: PlanPose, seconds: float) -> PlanPose:
     tables, settings = herd.kernel_tables, herd.kernel_settings
-    return predict(pose, seconds, 0, herd.kernel_command, tables, settings)
+    return predict(pose, seconds, 0, herd.kernel_state, herd.kernel_command, tables, settings)
 
 
 def acceleration(herd: Herd) -> float:

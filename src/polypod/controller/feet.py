@@ -9,6 +9,7 @@ from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, predict
+from polypod.crowd.legs import add_company
 from polypod.environment.table import shift_of, surface_at, surface_normal, surface_normal_at
 from polypod.footprints.plan import plan_step
 from polypod.footprints.settings import StepRequest, landing_time
@@ -127,7 +128,7 @@ def preferred_footprint(
     the pose at touchdown plus half of the stance's travel along the predicted arc.
     """
     stance = stance_seconds(c, k, state)
-    middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
+    middle = predict(pose, touchdown + 0.5 * stance, c, state, command, tables, settings)
     offset = rest_offset(c, k, middle.heading, state, tables, settings)
     return Vec3(middle.x + offset.x, state.foot[c, k, 1], middle.z + offset.z)
 
@@ -146,9 +147,9 @@ def plan_foot(
     preferred = errand.preferred
     touchdown = errand.seconds
     stance = stance_seconds(c, k, state)
-    landing = predict(pose, touchdown, c, command, tables, settings)
-    middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
-    leaving = predict(pose, touchdown + stance, c, command, tables, settings)
+    landing = predict(pose, touchdown, c, state, command, tables, settings)
+    middle = predict(pose, touchdown + 0.5 * stance, c, state, command, tables, settings)
+    leaving = predict(pose, touchdown + stance, c, state, command, tables, settings)
     start = load_vec3(state.foot[c, k])
     turn = foot_rotation(
         middle.heading,
@@ -161,6 +162,10 @@ def plan_foot(
     others = gather_other_legs(c, k, state, tables, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
+    if state.crowded[c]:
+        others = add_company(
+            c, k, others, start, preferred, touchdown, errand.radius, state, tables, scratch
+        )
     found = False
     for share in STEP_SHARES:
         request = StepRequest(
