@@ -8,14 +8,13 @@ from typing import Any
 from polypod.activity import ARRIVED, BLOCKED, STANDING, WAITING, WALKING
 from polypod.compute import kernel
 from polypod.controller.lift import is_moving
-from polypod.crowd.avoid import WAITING_PACE
 from polypod.routes.aim import WAYPOINT_RADIUS, aim_at
 
 
 @kernel
 def note_activity(c: int, state: Any, command: Any, tables: Any) -> None:
     """Write what a creature is doing at the end of a step."""
-    waits = command.speed[c] > 0.0 and state.pace[c] < WAITING_PACE
+    waits = command.speed[c] > 0.0
     walks = is_moving(c, state, tables)
     for k in range(state.swinging.shape[1]):
         if not state.reaching[c, k]:

@@ -63,7 +63,7 @@ def move_body(
     turn_rate = pose.turn_rate
     speed = pose.speed
     if near > 0:
-        free_x, free_z, apart = apart_from(c, near, x, z, heading, True, state, scratch)
+        free_x, free_z, apart = apart_from(c, near, x, z, heading, state, scratch)
         if not apart:
             free_x = state.position[c, 0]
             free_z = state.position[c, 2]

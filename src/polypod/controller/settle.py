@@ -162,9 +162,11 @@ def settle_body(
         position = mix(before, wished, share)
         turned = slerp(turn_before, turn, share)
         heading = heading_before + share * turning
-        fits = feet_fit(c, position, turned, state, tables, scratch)
-        if near > 0 and fits:
-            _, _, fits = apart_from(c, near, position.x, position.z, heading, False, state, scratch)
+        apart = True
+        if near > 0 and share > 0.0:
+            x, z, apart = apart_from(c, near, position.x, position.z, heading, state, scratch)
+            position = Vec3(x, position.y, z)
+        fits = apart and feet_fit(c, position, turned, state, tables, scratch)
         if share == 0.0 and not fits and env.mover_count > 0:
             # What some feet stand on has carried the body away from the others.
             position = body_within_reach(c, state, tables, scratch, position, turned)

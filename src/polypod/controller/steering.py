@@ -86,11 +86,15 @@ def steer(
         )
         waypoint = float(aim.waypoint)
         corner = float(aim.corner)
+        away = math.hypot(aim.to_x, aim.to_z)
         heading_asked = pose.heading
-        if not aim.stops or math.hypot(aim.to_x, aim.to_z) > HEADING_RADIUS * tables.leg_length:
+        if not aim.stops or away > HEADING_RADIUS * tables.leg_length:
             heading_asked = math.atan2(aim.to_x, aim.to_z) - travel
         course = pose.heading + travel
         left = max(math.sin(course) * aim.to_x + math.cos(course) * aim.to_z, 0.0)
+        # Who goes round something does not head for the place, and is not there yet.
+        if pose.detour != 0.0 and away > tables.leg_length:
+            left = away
         nearest = START_AGAIN if pose.speed <= 0.0 else STOPPED
         if aim.stops and left <= nearest * tables.leg_length:
             left = 0.0

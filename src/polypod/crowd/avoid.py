@@ -122,43 +122,66 @@ def threat(
 
 
 @kernel
+def step_nearer(
+    me: int, a: int, x: float, z: float, turn: float, to_x: float, to_z: float, company: Company
+) -> tuple[float, float, float, float]:
+    """Return by how much a step brings a creature's disc `a` nearer to a place, m.
+
+    The step is from where it was as the frame began to (x, z), turned by `turn`. Also how far the
+    place was, and the direction to it (unit, world x and z).
+    """
+    out_x = company.disc[me, a, 0] - company.origin[me, 0]
+    out_z = company.disc[me, a, 1] - company.origin[me, 1]
+    sine = math.sin(turn)
+    cosine = math.cos(turn) - 1.0
+    step_x = x - company.origin[me, 0] + out_x * cosine + out_z * sine
+    step_z = z - company.origin[me, 1] + out_z * cosine - out_x * sine
+    gap_x = to_x - company.disc[me, a, 0]
+    gap_z = to_z - company.disc[me, a, 1]
+    away = max(math.hypot(gap_x, gap_z), 1e-12)
+    gap_x /= away
+    gap_z /= away
+    return step_x * gap_x + step_z * gap_z, away, gap_x, gap_z
+
+
+@kernel
 def apart_from(
-    c: int, count: int, x: float, z: float, heading: float, pushes: bool, state: Any, scratch: Any
+    c: int, count: int, x: float, z: float, heading: float, state: Any, scratch: Any
 ) -> tuple[float, float, bool]:
-    """Return the place of a body, world x and z, at which its trunk meets none of the neighbours'.
+    """Return the place of a body, world x and z, at which its trunk meets no neighbour.
 
     `count` of them are listed. Since the frame began it may take half of what there was between any
-    two discs. If it `pushes`, a place that is too near is moved aside; the third value says whether
-    the place is apart now.
+    disc of its own and any of theirs, and all that there was to a foot of theirs. A place that is
+    too near is moved aside; the third value says whether it is apart then.
     """
     company = scratch.company
     me = state.member[c]
     turn = heading - company.origin[me, 2]
-    sine = math.sin(turn)
-    cosine = math.cos(turn) - 1.0
-    passes = BOUND_PASSES if pushes else 0
-    for attempt in range(passes + 1):
+    own = company.disc_radius[me]
+    for attempt in range(BOUND_PASSES + 1):
         excess = 0.0
         for i in range(count):
+            if scratch.neighbour_gap[i] > own:
+                continue
             other = scratch.neighbour[i]
-            radius = company.disc_radius[me] + company.disc_radius[other]
+            discs = company.discs[other]
+            first_leg = company.first_leg[other]
             for a in range(company.discs[me]):
-                out_x = company.disc[me, a, 0] - company.origin[me, 0]
-                out_z = company.disc[me, a, 1] - company.origin[me, 1]
-                turn_x = out_x * cosine + out_z * sine
-                turn_z = out_z * cosine - out_x * sine
-                for b in range(company.discs[other]):
-                    gap_x = company.disc[other, b, 0] - company.disc[me, a, 0]
-                    gap_z = company.disc[other, b, 1] - company.disc[me, a, 1]
-                    away = max(math.hypot(gap_x, gap_z), 1e-12)
-                    gap_x /= away
-                    gap_z /= away
-                    nearer = (x - company.origin[me, 0] + turn_x) * gap_x
-                    nearer += (z - company.origin[me, 1] + turn_z) * gap_z
-                    nearer -= max(0.5 * (away - radius), 0.0)
+                for b in range(discs + company.first_leg[other + 1] - first_leg):
+                    if b < discs:
+                        radius = own + company.disc_radius[other]
+                        to_x = company.disc[other, b, 0]
+                        to_z = company.disc[other, b, 1]
+                    else:
+                        leg = first_leg + b - discs
+                        radius = own + company.leg_radius[leg]
+                        to_x = company.leg_sole[leg, 0]
+                        to_z = company.leg_sole[leg, 2]
+                    nearer, away, gap_x, gap_z = step_nearer(me, a, x, z, turn, to_x, to_z, company)
+                    nearer -= max((0.5 if b < discs else 1.0) * (away - radius), 0.0)
                     if nearer > 0.0:
-                        excess = max(excess, nearer / radius)
-                        if attempt < passes:
+                        excess = max(excess, nearer / own)
+                        if attempt < BOUND_PASSES:
                             x -= nearer * gap_x
                             z -= nearer * gap_z
         if excess <= TOUCH:
