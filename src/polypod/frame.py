@@ -13,6 +13,7 @@ from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
 from polypod.controller.activity import note_activity
+from polypod.controller.headway import note_headway
 from polypod.controller.lift import any_off_place
 from polypod.controller.move import move_body
 from polypod.controller.moving import any_threatened, carry_feet
@@ -114,6 +115,7 @@ def settle_creatures(
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
         reach_feet(c, seconds, state, command, tables)
+        note_headway(c, seconds, state, command, tables)
         note_activity(c, state, command, tables)
 
 

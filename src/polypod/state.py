@@ -62,6 +62,10 @@ class HerdState(NamedTuple):
     yielded: FloatArray  # [C] s for which it has waited for others
     crowded: BoolArray  # [C] others are so near that legs could meet
     member: IntArray  # [C] its row in the world's company
+    asked: FloatArray  # [C, 4] direction (rad), speed and waypoint (x, z) when headway began
+    judged: FloatArray  # [C, 3] x and z from which headway is judged, and the s since
+    halted: FloatArray  # [C] s for which it still stands, for it made no headway
+    halts: IntArray  # [C] how often in a row
     activity: IntArray  # [C] polypod.activity.Activity
     hurry: FloatArray  # [C] by how much quicker it steps because legs were at their limits
     swing_start: FloatArray  # [C, K] disks in use
@@ -171,6 +175,8 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "crowded",
             "member",
             "activity",
+            "halted",
+            "halts",
         ),
         (c,),
     )
@@ -226,6 +232,8 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         "spacing": (c, k, 2),
         "steered": (c, 9),
         "slope": (c, 2),
+        "asked": (c, 4),
+        "judged": (c, 3),
         "tilt": (c, 2, 3),
         "lift": (c, 3),
         "joint_position": (c, j, 3),

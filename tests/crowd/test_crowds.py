@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from crowd.crowds import FPS, crowd, far_from_goal, feet_gap, soles_gap, trunk_gap
 
+from crowd.crowds import FPS, crowd, far_from_goal, feet_gap, soles_gap, trunk_gap
 from polypod.activity import Activity
 from polypod.config import Settings
 from polypod.environment.environment import Environment

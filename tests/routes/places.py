@@ -53,9 +53,11 @@ def box(leg, x0, z0, x1, z1, height=2.0, forbidden=False):
     return Obstacle("box", size, centre, forbidden=forbidden)
 
 
-def find(place: Environment, goal, start=(0.0, 0.0), rig="spider", level=0.0) -> Way:
-    """Return the way from a start to a goal, leg lengths, for who stands on ground at `level`, m."""
-    herd = herd_of(rig)
+def find(
+    place: Environment, goal, start=(0.0, 0.0), rig="spider", level=0.0, herd: Herd | None = None
+) -> Way:
+    """Return the way from a start to a goal, leg lengths, from ground of height `level`, m."""
+    herd = herd or herd_of(rig)
     leg = herd.tables.leg_length
     state = herd.state
     state.position[0] = (start[0] * leg, level + herd.tables.body.height, start[1] * leg)
@@ -80,7 +82,7 @@ def trap(leg: float, forbidden: bool) -> Environment:
 
 
 def maze(leg: float, forbidden: bool) -> Environment:
-    """Return three walls across a walled strip, open on one side in turn; it is entered from z 0."""
+    """Return three walls across a walled strip, open on one side in turn; it begins at z = 0."""
     walls = (
         (-5.5, 2.4, 2.5, 2.7),
         (-2.5, 4.4, 5.5, 4.7),

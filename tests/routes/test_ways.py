@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import hypothesis
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
-from routes import places
-from routes.places import box, find, leg_of, samples
 
+from polypod.config import Settings
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain
+from polypod.herd import Herd
+from polypod.morphology.load import load_rig
+from routes import places
+from routes.places import box, find, leg_of, samples
 
 RIGS = ("spider", "wolf")
 
@@ -43,7 +47,7 @@ def test_it_leaves_a_dead_end(rig: str, forbidden: bool) -> None:
     assert not way.ends
     assert abs(way.crossing(4.15)) > 2.0
     # Out, round a corner of it, and on: no shorter way is there, and this is not much longer.
-    assert 7.5 < way.length < 10.0
+    assert 9.0 < way.length < 11.0
 
 
 @pytest.mark.parametrize("forbidden", [False, True])
@@ -71,9 +75,9 @@ def test_a_goal_beyond_closed_walls_is_not_reached() -> None:
     assert out.ends
     assert 3.0 < out.points[-1, 1] < 4.0
     # Nor from outside, where the border of the map can be reached: the goal's own walls are seen.
-    into = find(place, (0, 0), start=(0, 7))
+    into = find(place, (0, 0), start=(0, 5.5))
     assert into.ends
-    assert 4.3 < into.points[-1, 1] < 5.2
+    assert 3.0 < np.linalg.norm(into.points[-1]) < 4.2
 
 
 @pytest.mark.parametrize("rig", RIGS)
@@ -124,15 +128,9 @@ def test_ways_scale_with_the_creature() -> None:
     """In leg lengths of a fly of 3 mm and of a dinosaur it is the same way."""
     ways = []
     for height in (0.003, 9.0):
-        herd = places.Herd(places.load_rig("spider", height=height), 1, places.Settings())
-        name = f"spider {height}"
-        places.herd_of.cache_clear()
-        original = places.herd_of
-        places.herd_of = lambda rig, herd=herd: herd  # type: ignore[assignment]
-        try:
-            ways.append(find(places.trap(herd.tables.leg_length, False), (0, 7), rig=name))
-        finally:
-            places.herd_of = original
+        herd = Herd(load_rig("spider", height=height), 1, Settings())
+        place = places.trap(herd.tables.leg_length, False)
+        ways.append(find(place, (0.5, 7), start=(0.5, 3), herd=herd))
     assert ways[0].points.shape == ways[1].points.shape
     assert np.abs(ways[0].points - ways[1].points).max() < 1e-6
 
@@ -163,7 +161,7 @@ def fields(draw: st.DrawFn) -> list[tuple[float, float, float, float, bool]]:
 
 
 @given(fields(), st.sampled_from(RIGS))
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@hypothesis.settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_no_way_leads_through_anything(field: list, rig: str) -> None:
     leg = leg_of(rig)
     boxes: list[Obstacle] = []

@@ -8,8 +8,9 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.steering import plan_pose
 from polypod.crowd.avoid import FORESIGHT, PATIENCE, threat
-from polypod.environment.table import is_forbidden
+from polypod.environment.table import is_forbidden, surface
 from polypod.routes.aim import aim_at
+from polypod.routes.passable import highest_step
 
 # What lies ahead is looked at so many leg lengths far, in so many places, along a fan of courses;
 # a course costs by what blocks it (2 for all of it), by its angle and by how new it is, per rad.
@@ -40,6 +41,23 @@ def way_free(x: float, z: float, course: float, margin: float, reach: float, env
 
 
 @kernel
+def way_low(
+    x: float, z: float, course: float, level: float, climb: float, reach: float, env: Any
+) -> float:
+    """Return the share of a straight way of `reach` m on which nothing is too high to step onto.
+
+    From ground of height `level`, up or down by `climb` m at each sample.
+    """
+    for i in range(1, LOOK_SAMPLES + 1):
+        along = reach * i / LOOK_SAMPLES
+        height, _ = surface(env, x + math.sin(course) * along, z + math.cos(course) * along)
+        if height > level + climb:
+            return (i - 1.0) / LOOK_SAMPLES
+        level = height
+    return 1.0
+
+
+@kernel
 def choose_course(
     c: int, near: int, state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any
 ) -> tuple[float, float]:
@@ -47,7 +65,8 @@ def choose_course(
 
     Of a fan of courses the freest near to the wished one is taken, by a plain look at the way that
     the feet take, or the body of a sprawler, whose feet find their own ways beside it; and at what
-    the `near` creatures listed in the scratch will do.
+    the `near` creatures listed in the scratch will do. Who steps aside for others does not step
+    against a wall.
     """
     if env.forbidden_count == 0 and near == 0:
         return 0.0, 1.0
@@ -64,6 +83,8 @@ def choose_course(
     horizon = FORESIGHT * tables.pendulum_time
     patience = 1.0 + state.yielded[c] / (PATIENCE * tables.pendulum_time)
     room = settings.personal_space / patience
+    level = state.plane_height[c]
+    climb = highest_step(tables)
     best = 0.0
     pace = 1.0
     least = math.inf
@@ -71,7 +92,11 @@ def choose_course(
     for i in range(2 * sides + 1):
         angle = LOOK_ANGLE * ((i + 1) // 2) * (1.0 if i % 2 == 1 else -1.0)
         direction = course + command.travel[c] + angle
-        blocked = 1.0 - way_free(pose.x, pose.z, direction, margin, reach, env)
+        free = way_free(pose.x, pose.z, direction, margin, reach, env)
+        if near > 0 and least < math.inf:
+            low = way_low(pose.x, pose.z, direction, level, climb, reach, env)
+            free = min(free, low)
+        blocked = 1.0 - free
         change = abs(angle - state.detour[c])
         turn = abs(angle)
         if near > 0 and angle < 0.0:

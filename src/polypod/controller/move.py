@@ -55,6 +55,8 @@ def move_body(
         c, near, state, command, tables, settings, env, scratch
     )
     note_yielding(c, dt, state.pace[c], state)
+    if state.halted[c] > 0.0:
+        state.pace[c] = 0.0
     pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
     x, z = feedback(c, state, tables, settings)
     x = pose.x + x * dt

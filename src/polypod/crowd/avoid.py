@@ -15,7 +15,7 @@ from polypod.compute import kernel
 from polypod.crowd.company import Company
 
 # So many of the nearest others are heeded.
-HEEDED = 8
+HEEDED = 12
 # How far ahead, leg pendulum times.
 FORESIGHT = 6.0
 # Leg pendulum times of waiting after which half of the room for feet is given up.

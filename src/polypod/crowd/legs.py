@@ -10,7 +10,9 @@ from polypod.crowd.avoid import list_neighbours
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Segments of other creatures that a plan heeds.
-COMPANY_SEGMENTS = 24
+COMPANY_SEGMENTS = 48
+# A leg counts whose foot is so near to the way there, leg lengths: its knee may be nearer.
+BESIDE = 0.5
 
 
 @kernel
@@ -47,7 +49,8 @@ def add_company(
             sole = load_vec3(company.leg_sole[m])
             from_wish = math.hypot(sole.x - preferred.x, sole.z - preferred.z)
             from_start = math.hypot(sole.x - start.x, sole.z - start.z)
-            if count < most and min(from_wish, from_start) < leg + radius:
+            near_end = from_wish < radius + BESIDE * leg
+            if count < most and (near_end or from_start < BESIDE * leg):
                 store_vec3(plan.other_a[count], sole)
                 store_vec3(plan.other_b[count], load_vec3(company.leg_knee[m]))
                 plan.other_radius[count] = company.leg_radius[m]

@@ -18,7 +18,7 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.environment.maps import DIAGONAL, STEP, fill_maps
 from polypod.footprints.settings import PlanSettings
-from polypod.routes.state import ROUTE_CELLS, RouteScratch
+from polypod.routes.state import BAD_PLACES, ROUTE_CELLS, RouteScratch
 
 CELL = 0.16  # leg lengths
 # Most that a step rises or sinks, leg lengths; sprawling legs fold and reach farther.
@@ -32,6 +32,7 @@ LONGEST_REACH = 0.9
 SQUEEZE = 0.75
 SQUEEZE_HIGH = 0.5
 ROOMY, NARROW, SHUT = 0, 1, 2
+BAD_RADIUS = 0.5  # about places that were not got past, leg lengths
 
 
 @kernel
@@ -111,16 +112,36 @@ def fill_near_forbidden(route: RouteScratch, n: int, track: float) -> None:
 
 
 @kernel
+def shut_bad_places(route: RouteScratch, n: int, c: int, ways: Any, radius: float) -> None:
+    """Close the cells within a radius, m, of places that a creature did not get past."""
+    place = route.window.place
+    cells = radius / place[2]
+    for k in range(min(ways.bad_count[c], BAD_PLACES)):
+        u = (ways.bad_place[c, k, 0] - place[0]) / place[2] - 0.5
+        v = (ways.bad_place[c, k, 1] - place[1]) / place[2] - 0.5
+        for i in range(max(int(v - cells), 0), min(int(v + cells) + 2, n)):
+            for j in range(max(int(u - cells), 0), min(int(u + cells) + 2, n)):
+                if (i - v) * (i - v) + (j - u) * (j - u) <= cells * cells:
+                    route.near_forbidden[i, j] = SHUT
+
+
+@kernel
+def highest_step(tables: Any) -> float:
+    """Return the most that a creature steps up or down, m."""
+    return float((CLIMB_UPRIGHT if tables.upright else CLIMB_SPRAWLING) * tables.leg_length)
+
+
+@kernel
 def fill_passable(
-    env: Any, route: RouteScratch, x: float, z: float, tables: Any, settings: PlanSettings
+    c: int, env: Any, route: RouteScratch, state: Any, tables: Any, settings: PlanSettings
 ) -> None:
-    """Fill the map around a place (world, m) for a creature."""
+    """Fill the map around a creature."""
     n = ROUTE_CELLS
     leg = tables.leg_length
     cell = CELL * leg
     # Cells that do not shift with the creature: else places as near would change in turns.
-    x = math.floor(x / cell + 0.5) * cell
-    z = math.floor(z / cell + 0.5) * cell
+    x = math.floor(state.position[c, 0] / cell + 0.5) * cell
+    z = math.floor(state.position[c, 2] / cell + 0.5) * cell
     fill_maps(env, route.window, x, z, cell, n, 0.0, 0.0, 0.0, 0.0)
     tolerance = settings.uneven * leg + settings.slope * 1.5 * cell
     for i in range(n):
@@ -130,8 +151,9 @@ def fill_passable(
     fill_tops(route, route.top, n, max(trunk, SQUEEZE_HIGH * tables.track))
     fill_tops(route, route.wide_top, n, max(trunk, tables.track))
     fill_near_forbidden(route, n, tables.track)
+    shut_bad_places(route, n, c, state.route, BAD_RADIUS * leg)
     travel = (REACH_UPRIGHT if tables.upright else REACH_SPRAWLING) * tables.stance_travel
-    route.limit[0] = (CLIMB_UPRIGHT if tables.upright else CLIMB_SPRAWLING) * leg
+    route.limit[0] = highest_step(tables)
     # A cell that the edge of a gap crosses is no ground: there is one on either side.
     route.limit[1] = min(travel, LONGEST_REACH * leg) + cell
 

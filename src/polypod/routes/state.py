@@ -18,6 +18,8 @@ BoolArray = NDArray[np.bool_]
 ROUTE_CELLS = 120
 # Corners that are kept of a way; what lies beyond is looked for again on the way there.
 ROUTE_CORNERS = 12
+# Places that were not got past, of which the last are remembered.
+BAD_PLACES = 8
 
 
 class RouteState(NamedTuple):
@@ -34,6 +36,8 @@ class RouteState(NamedTuple):
     astray_from: FloatArray  # [C, 2] x, z: where the search for an end of a barrier began
     astray: FloatArray  # [C] m gone since then, 0: there is no such search
     looked_from: FloatArray  # [C, 2] x, z: where the way was last looked for
+    bad_place: FloatArray  # [C, BAD_PLACES, 2] x, z: what a way led to and legs did not get past
+    bad_count: IntArray  # [C] how many there were
 
 
 def make_route_state(count: int) -> RouteState:
@@ -50,6 +54,8 @@ def make_route_state(count: int) -> RouteState:
         astray_from=np.zeros((count, 2)),
         astray=np.zeros(count),
         looked_from=np.zeros((count, 2)),
+        bad_place=np.zeros((count, BAD_PLACES, 2)),
+        bad_count=np.zeros(count, np.int64),
     )
 
 

@@ -207,11 +207,12 @@ def keep_way(
     x1 = min(max(goal[0], x - half), x + half)
     z1 = min(max(goal[1], z - half), z + half)
     flat = env.terrain_range[0] == env.terrain_range[1] and env.water.shape[0] == 0
-    if not flat or obstacles_near(
+    bad = ways.bad_count[c] > 0
+    if bad or not flat or obstacles_near(
         env, min(x, x1) - beside, min(z, z1) - beside, max(x, x1) + beside, max(z, z1) + beside,
         LOWEST, route.near,
     ) > 0:  # fmt: skip
-        fill_passable(env, route, x, z, tables, plan_settings)
+        fill_passable(c, env, route, state, tables, plan_settings)
         find_way(c, goal, state, tables, route)
     ways.looked_from[c, 0] = x
     ways.looked_from[c, 1] = z
