@@ -1,41 +1,44 @@
-"""Walks creatures among things that move, and measures them against the true geometry.
+"""Walks creatures for long where it is hard to walk, and measures them against the true geometry.
 
-    python benchmarks/soak.py --rigs spider wolf --places crates platforms careless --seeds 3
+    python benchmarks/soak.py --rigs spider wolf --places crates trenches --seeds 3
 
-`crates` go to and fro at up to half of the walker's speed, `platforms` rise and fall under its way,
-`careless` crates change their course every half second without warning. One row a walk: how deep a
-foot is inside anything at worst, at four moments between frames too, and in what share of them
-beyond 1 % of its leg; slip in the frame of what is stood on; distance to the surface; residual;
-share of the commanded distance; longest halt. Exit code 1 where a walk breaks a limit.
+Of 40 `crates` that go to and fro at up to half of the walker's speed, `platforms` that rise and
+fall under its way, and `careless` crates that change their course every half second without
+warning; a third of 45 crates `forbidden`; a `corridor` of forbidden posts; `stairs` with landings;
+`trenches`; `rubble` of random hulls. One row a walk: how deep a foot is inside anything at worst,
+at four moments between frames too, and in what share of them beyond 1 % of its leg; slip in the
+frame of what is stood on; distance to the surface; residual; in what share of frames two legs
+touch; share of the commanded distance; longest halt. Exit code 1 where a walk breaks a limit.
 """
 
 from __future__ import annotations
 
 import argparse
-import dataclasses
-import math
 import sys
 from typing import NamedTuple
 
 import numpy as np
 from acceptance import load
-from places import RIGS, Rig, crates, default_speed, front, leg_length
+from places import RIGS, Rig, default_speed
+from soak_places import PLACES, Careless, make_place
 
 from polypod.environment.environment import Environment
-from polypod.environment.obstacles import Obstacle
 from polypod.morphology.builtin import NAMES
 from polypod.morphology.types import Morphology
 from polypod.recording import add_frame
+from polypod.report.apart import leg_room
 from polypod.report.ground import Ground
 from polypod.report.record import Recorder, Recording
 from polypod.report.stances import slip_per_stance
 from polypod.world import World
 
 SUBFRAMES = 4
-PLACES = ("crates", "platforms", "careless")
-CRATES = 40
-COURSE_SECONDS = 0.5  # after which careless crates change their course
-LIMITS = {"inside": 0.01, "slip": 1e-3, "off": 2e-3, "residual": 0.01, "halt": 3.0}
+# Shares of leg lengths, of frames, and seconds; nothing that is no number keeps a limit.
+LIMITS = {
+    "inside": 0.01, "slip": 1e-3, "off": 2e-3, "residual": 0.01, "touching": 1e-3, "halt": 3.0,
+}  # fmt: skip
+# Least share of the commanded distance.
+LEAST = {"forbidden": 0.8}
 
 
 class Soaked(NamedTuple):
@@ -46,78 +49,14 @@ class Soaked(NamedTuple):
     slip: float
     off: float
     residual: float
+    touching: float  # share of frames in which two legs touch
     distance: float  # share of what was commanded
     halt: float  # s
 
-    def broken(self) -> list[str]:
-        """Return the limits that are broken."""
-        return [name for name, limit in LIMITS.items() if not getattr(self, name) <= limit]
-
-
-class Careless:
-    """Crates that change their course without warning."""
-
-    def __init__(self, environment: Environment, speed: float, seed: int) -> None:
-        """Give each a course."""
-        self.environment = environment
-        self.random = np.random.default_rng(seed)
-        self.speed = speed
-        self.place = environment.places()
-        self.velocity = np.zeros_like(self.place)
-        self.until = self.random.uniform(0.0, COURSE_SECONDS, len(self.place))
-
-    def step(self, time: float, dt: float) -> None:
-        """Move them all."""
-        turn = np.flatnonzero(self.until <= time)
-        course = self.random.uniform(0.0, 2.0 * math.pi, len(turn))
-        size = self.random.uniform(0.0, self.speed, len(turn))
-        self.velocity[turn, 0] = size * np.sin(course)
-        self.velocity[turn, 2] = size * np.cos(course)
-        self.until[turn] += COURSE_SECONDS
-        self.place += self.velocity * dt
-        for index, place in enumerate(self.place):
-            self.environment.move(index, place, self.velocity[index])
-
-
-def moving_crates(morphology: Morphology, distance: float, seed: int) -> Environment:
-    """Return crates that go to and fro over the strip that is walked."""
-    unit, speed = leg_length(morphology), default_speed(morphology)
-    random = np.random.default_rng(seed)
-    made = []
-    for crate in crates(morphology, front(morphology) + 0.5 * unit, distance, seed, 0.0)[:CRATES]:
-        course, way = random.uniform(0.0, 2.0 * math.pi), random.uniform(1.0, 3.0) * unit
-        end = np.array(crate.position) + way * np.array([math.sin(course), 0.0, math.cos(course)])
-        pace = float(random.uniform(0.1, 0.5)) * speed
-        made.append(dataclasses.replace(crate, path=(tuple(end.tolist()),), speed=pace))
-    return Environment(None, made)
-
-
-def platforms(morphology: Morphology, distance: float, seed: int) -> Environment:
-    """Return plates that rise and fall, one behind the other."""
-    unit, speed = leg_length(morphology), default_speed(morphology)
-    random = np.random.default_rng(seed)
-    made = []
-    z = front(morphology) + 0.6 * unit
-    while z < distance:
-        size = float(random.uniform(1.5, 2.5)) * unit
-        low = (0.0, 0.06 * unit, z + 0.5 * size)
-        high = (0.0, low[1] + float(random.uniform(0.05, 0.25)) * unit, low[2])
-        pace = float(random.uniform(0.05, 0.2)) * speed
-        plate = Obstacle("box", (4.0 * unit, 0.12 * unit, size), low, path=(high,), speed=pace)
-        made.append(plate)
-        z += size + float(random.uniform(0.0, 0.3)) * unit
-    return Environment(None, made)
-
-
-def make_place(place: str, morphology: Morphology, distance: float, seed: int) -> Environment:
-    """Return one of the places."""
-    if place == "platforms":
-        return platforms(morphology, distance, seed)
-    if place == "crates":
-        return moving_crates(morphology, distance, seed)
-    first = front(morphology) + 0.5 * leg_length(morphology)
-    still = crates(morphology, first, distance, seed, 0.0)[:CRATES]
-    return Environment(None, still, movable=True)
+    def broken(self, place: str) -> list[str]:
+        """Return the limits that are broken at a place."""
+        broken = [name for name, limit in LIMITS.items() if not getattr(self, name) <= limit]
+        return broken + (["distance"] if not self.distance >= LEAST.get(place, 0.0) else [])
 
 
 def walk(
@@ -167,6 +106,7 @@ def judge(recording: Recording, environment: Environment, speed: float) -> Soake
         max(slip_per_stance(recording, foot), default=0.0),
         float((off / np.broadcast_to(leg, stance.shape)[stance]).max()),
         float(residual.max()),
+        float(np.mean(leg_room(recording).of_leg < 0.0)),
         float(np.linalg.norm(body[-1] - body[0]) / (speed * recording.time[-1])),
         longest,
     )
@@ -185,7 +125,7 @@ def main() -> int:
     given = parser.parse_args()
     print("in % of leg length; distance as a share, halt in s")
     print(f"{'rig':<11}{'place':<10}{'seed':>4}{'inside':>9}{'beyond':>10}{'slip':>8}{'off':>8}"
-          f"{'residual':>10}{'distance':>10}{'halt':>6}")  # fmt: skip
+          f"{'residual':>10}{'touching':>10}{'distance':>10}{'halt':>6}")  # fmt: skip
     kept = total = 0
     for name in given.rigs:
         morphology = load(next((rig for rig in RIGS if rig.name == name), Rig(name)))
@@ -196,13 +136,14 @@ def main() -> int:
             for seed in range(1, given.seeds + 1):
                 recording, environment = walk(morphology, place, seed, given.seconds, given.fps)
                 result = judge(recording, environment, default_speed(morphology))
-                broken = result.broken()
+                broken = result.broken(place)
                 total += 1
                 kept += not broken
                 print(
                     f"{name:<11}{place:<10}{seed:>4}{100 * result.inside:>9.3f}"
                     f"{result.beyond:>10.6f}{100 * result.slip:>8.4f}{100 * result.off:>8.4f}"
-                    f"{100 * result.residual:>10.3f}{result.distance:>10.3f}{result.halt:>6.1f}"
+                    f"{100 * result.residual:>10.3f}{result.touching:>10.5f}"
+                    f"{result.distance:>10.3f}{result.halt:>6.1f}"
                     f"{'  BREAKS ' + ', '.join(broken) if broken else ''}",
                     flush=True,
                 )

@@ -18,6 +18,7 @@ from polypod.footprints.settings import PlanSettings
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
+from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.state import RouteScratch, make_route_scratch
@@ -157,7 +158,11 @@ class Herd:
             feet, most = legs.joint.shape
             path = path_store(1, 1)
             scratch = Scratch(
-                plan=make_plan_scratch(self.plan_settings, feet + COMPANY_SEGMENTS),
+                plan=make_plan_scratch(
+                    self.plan_settings,
+                    make_legs_ahead(self.tables.ik, legs.section_radius, legs.foot_joint),
+                    COMPANY_SEGMENTS,
+                ),
                 path=PathRow(*(array[0, 0] for array in path)),
                 hull=make_hull_scratch(feet),
                 progress=np.zeros(feet),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,29 @@ def test_stairs_lead_down_again() -> None:
         )
     assert surface(env, 0.0, middle)[0] == pytest.approx(0.4)
     assert surface(env, 0.0, middle + 1.95)[0] == 0.0
+
+
+def test_trenches_have_vertical_sides_and_ground_between() -> None:
+    terrain = Terrain.trenches(
+        seed=4, narrowest=0.1, widest=0.3, apart=0.8, depth=1.5, count=6, width=4.0, start=2.0
+    )
+    env = Environment(terrain).table
+    edges = [(p.position[2] - 0.5 * p.size[2], p.position[2] + 0.5 * p.size[2])
+             for p in terrain.parts]  # fmt: skip
+    assert len(edges) == 7
+    assert edges[0][1] == pytest.approx(2.0)
+    for (_, begins), (ends, _) in pairwise(edges):
+        assert 0.1 <= ends - begins <= 0.3
+        for z in (begins + 1e-9, 0.5 * (begins + ends), ends - 1e-9):
+            assert surface(env, 1.0, z)[0] == pytest.approx(-1.5)
+        assert surface(env, 1.0, begins - 1e-9)[0] == pytest.approx(0.0)
+        assert surface(env, 1.0, ends + 1e-9)[0] == pytest.approx(0.0)
+    for begins, ends in edges[1:-1]:
+        assert 0.4 <= ends - begins <= 0.8
+    # The ground before and behind them is level for ever, whatever the side.
+    for x in (0.0, 1.9):
+        for z in (-50.0, 0.0, edges[-1][0] + 0.01, edges[-1][1] + 0.01, 80.0):
+            assert surface(env, x, z)[0] == pytest.approx(0.0)
 
 
 def test_hills_have_their_relief_and_are_smooth() -> None:

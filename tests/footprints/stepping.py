@@ -11,13 +11,19 @@ from polypod.environment import Environment, Terrain, scatter
 from polypod.environment.table import is_forbidden, penetration, surface
 from polypod.footprints.plan import make_plan_scratch, plan_step
 from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.ik.table import build_ik_table
 from polypod.math.vec3 import Vec3
+from polypod.morphology.load import load_rig
+from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import path_point, path_store
 
 LEG = 0.5
 STRIDE = 0.25
 SETTINGS = PlanSettings()
-SCRATCH = make_plan_scratch(SETTINGS, 8)
+LEGS = load_rig("spider").legs
+SCRATCH = make_plan_scratch(
+    SETTINGS, make_legs_ahead(build_ik_table(LEGS), LEGS.section_radius, LEGS.foot_joint)
+)
 
 
 def ask(env, start, preferred, leg=LEG, stride=STRIDE, side=1.0, **changes):

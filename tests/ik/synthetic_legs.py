@@ -44,6 +44,7 @@ def make_legs(
         sole_stance=sole.copy() if stance is None else np.array(stance, float),
         length=np.array(lengths),
         foot_half_size=np.zeros((count, 2)),
+        section_radius=np.zeros((count, most + 1)),
         side=np.array(side if side is not None else np.sign(sole[:, 0]), dtype=np.int64),
         row=np.array(row if row is not None else np.zeros(count), dtype=np.int64),
         upright=np.full(count, upright, dtype=np.bool_),

@@ -101,6 +101,7 @@ def morphology() -> Morphology:
         sole_stance=REST_SOLES.copy(),
         length=np.full(6, LEG),
         foot_half_size=np.full((6, 2), 0.01),
+        section_radius=np.tile([0.01, 0.01, 0.0], (6, 1)),
         side=np.array([1, -1, 1, -1, 1, -1], np.int64),
         row=np.array([0, 0, 1, 1, 2, 2], np.int64),
         upright=np.zeros(6, np.bool_),

@@ -14,6 +14,7 @@ from synthetic import APEX, DUTY, LEG, PHASES, SPEED, STRIDE_S
 
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
+from polypod.report.apart import leg_room
 from polypod.report.arrays import angles_of, conjugate_all, multiply_all, rotate_all
 from polypod.report.figures import measure, measure_played, write_report
 from polypod.report.verdict import failures, remarks
@@ -332,6 +333,28 @@ def test_crossed_legs_and_stretch():
     assert figures_of(recording)["leg_stretch"] == pytest.approx(reach / LEG)
 
 
+def test_legs_touch_where_their_surfaces_do():
+    recording = synthetic.walk()
+    legs = recording.morphology.legs
+    assert leg_room(recording).of_leg.min() > 0.0
+    assert figures_of(recording)["legs_touching_share"] == 0.0
+    # In ten frames sole 2 stands where sole 0 is, a little more than their thickness aside.
+    thick = legs.section_radius[0, 1] + legs.section_radius[2, 1]
+    for aside, share in ((1.01, 0.0), (0.99, 10 / len(recording.time))):
+        place, feet = recording.joint_position.copy(), recording.foot_position.copy()
+        knee = legs.joint[:, 1]
+        shift = np.array([0.0, 0.0, aside * thick])
+        feet[40:50, 2] = feet[40:50, 0] + shift
+        place[40:50, knee[2]] = place[40:50, knee[0]] + 5.0 * shift
+        near = dataclasses.replace(recording, foot_position=feet, joint_position=place)
+        room = leg_room(near)
+        assert room.of_leg[45] == pytest.approx((aside - 1.0) * thick / LEG, abs=1e-9)
+        assert room.legs[45] == (0, 2)
+        figures = figures_of(near)
+        assert figures["legs_touching_share"] == pytest.approx(share)
+        assert ("legs touch" in " ".join(remarks(figures))) == (share > 0.0)
+
+
 def test_belly_clearance_is_to_the_crate_under_it():
     """The belly is at height - thickness + bob; a plate of 5 cm under it leaves that much less."""
     plate = Obstacle.box((0.3, 0.05, 0.1), (0.0, 0.025, 0.5))
@@ -387,7 +410,9 @@ def test_figures_do_not_depend_on_size_or_place():
         return factor * rotate_all(turn, place) + shift
 
     body = recording.morphology
-    legs = body.legs._replace(length=factor * body.legs.length)
+    legs = body.legs._replace(
+        length=factor * body.legs.length, section_radius=factor * body.legs.section_radius
+    )
     trunk = body.body._replace(
         thickness=factor * body.body.thickness,
         half_size=factor * body.body.half_size,

@@ -10,7 +10,7 @@ from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane
 from polypod.compute import kernel
-from polypod.controller.feet import rest_offset
+from polypod.controller.rest import rest_offset
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from polypod.body.reach import effector_world
-from polypod.body.support import body_rotation, foot_on_its_way
+from polypod.body.support import body_rotation
 from polypod.compute import kernel
+from polypod.controller.errand import Errand
+from polypod.controller.others import gather_other_legs, look_ahead
+from polypod.controller.rest import body_height_at, level_height, rest_offset
 from polypod.controller.steering import PlanPose, predict
 from polypod.crowd.legs import add_company
 from polypod.environment.table import shift_of, surface_at, surface_normal, surface_normal_at
@@ -15,63 +18,12 @@ from polypod.footprints.plan import plan_step
 from polypod.footprints.settings import StepRequest, landing_time
 from polypod.ik.foot import foot_rotation
 from polypod.math.quat import rotate, store_quat
-from polypod.math.vec3 import Vec3, length_plan, load_vec3, normalized, store_vec3
+from polypod.math.vec3 import Vec3, load_vec3, normalized, store_vec3
 
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
 # Where no path is found, a lower one may pass under the leg's shortest reach.
 STEP_SHARES = (1.0, 0.35)
-
-
-class Errand(NamedTuple):
-    """What a foot is sent to do."""
-
-    preferred: Vec3  # world, m: where it would land on the plan
-    seconds: float  # until touchdown
-    velocity: Vec3  # with which it sets out, m per unit of progress
-    launch: float  # its speed then over the mean speed
-    radius: float  # m about the preferred place in which a footprint is looked for
-
-
-@kernel
-def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
-    """Return the rest place of a sole, spacing included; body frame, m."""
-    stand = load_vec3(tables.legs.sole_stance[k])
-    return Vec3(stand.x + state.spacing[c, k, 0], stand.y, stand.z + state.spacing[c, k, 1])
-
-
-@kernel
-def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, settings: Any) -> Vec3:
-    """Return where a sole rests beside the body centre, world axes, m; only the plan counts.
-
-    The body leans with the slope, and the rest places with it; upright legs take part of the lean
-    back, so that the feet stay under the body.
-    """
-    turn = body_rotation(heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-    offset = rotate(turn, place_body(c, k, state, tables))
-    if tables.legs.upright[k]:
-        under = rotate(turn, Vec3(0.0, tables.legs.sole_stance[k, 1], 0.0))
-        offset = offset - Vec3(under.x, 0.0, under.z) * settings.upright_lean
-    return offset
-
-
-@kernel
-def body_height_at(c: int, x: float, z: float, state: Any) -> float:
-    """Return the height that the body would have elsewhere, carried along the feet's plane."""
-    dx = x - state.position[c, 0]
-    dz = z - state.position[c, 2]
-    sine = math.sin(state.heading[c])
-    cosine = math.cos(state.heading[c])
-    rise: float = state.slope[c, 0] * (dx * sine + dz * cosine) + state.slope[c, 1] * (
-        dx * cosine - dz * sine
-    )
-    return state.position[c, 1] + rise
-
-
-@kernel
-def level_height(c: int, x: float, z: float, state: Any) -> float:
-    """Return the height of the feet's plane at a place, world."""
-    return body_height_at(c, x, z, state) - state.position[c, 1] + state.plane_height[c]
 
 
 @kernel
@@ -80,33 +32,6 @@ def hip_at(c: int, k: int, pose: PlanPose, state: Any, tables: Any) -> Vec3:
     turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
     centre = Vec3(pose.x, body_height_at(c, pose.x, pose.z, state), pose.z)
     return centre + rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
-
-
-@kernel
-def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int:
-    """Write the segments of the other legs near foot `k` to the scratch; return their number.
-
-    Of each leg whose foot could be met, the last section before the sole counts, as it is now for
-    a standing foot and as it will be for a swinging one.
-    """
-    count = 0
-    legs = tables.legs
-    for other in range(state.swinging.shape[1]):
-        gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
-        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
-            continue
-        sole = foot_on_its_way(c, other, state)
-        if state.swinging[c, other]:
-            sole = load_vec3(state.foot_target[c, other])
-        knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
-        moved = sole - load_vec3(state.foot_reached[c, other])
-        store_vec3(plan.other_a[count], sole)
-        store_vec3(plan.other_b[count], knee + moved)
-        plan.other_radius[count] = 0.5 * max(
-            legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
-        )
-        count += 1
-    return count
 
 
 @kernel
@@ -160,6 +85,7 @@ def plan_foot(
     hip = hip_at(c, k, landing, state, tables)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
     others = gather_other_legs(c, k, state, tables, scratch.plan)
+    look_ahead(c, dt, pose, errand, stance, state, command, tables, settings, env, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
     if state.crowded[c]:

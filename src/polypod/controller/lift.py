@@ -6,7 +6,9 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.controller.feet import Errand, preferred_footprint, rest_offset
+from polypod.controller.errand import Errand
+from polypod.controller.feet import preferred_footprint
+from polypod.controller.rest import rest_offset
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import begin_swing, wished_progress
 from polypod.environment.table import surface

@@ -7,7 +7,7 @@ from typing import Any
 
 from polypod.body.reach import foot_shift
 from polypod.compute import kernel
-from polypod.controller.feet import rest_offset
+from polypod.controller.rest import rest_offset
 from polypod.math.quat import load_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, store_vec3
 

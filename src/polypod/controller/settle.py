@@ -41,14 +41,14 @@ CUT = 0.006
 def chord_is_free(dt: float, accepted: float, before: Vec3, after: Vec3, env: Any) -> bool:
     """Return whether the straight way of a foot in one frame crosses nothing forbidden.
 
-    Nor, where things move, goes deeper than `accepted` (m) into anything on its way.
+    Nor goes deeper than `accepted` (m) into anything on its way.
     """
     for i in range(1, CHORD_SAMPLES + 1):
         share = i / CHORD_SAMPLES
         place = mix(before, after, share)
         if is_forbidden(env, place.x, place.z, 0.0):
             return False
-        if env.mover_count > 0 and i < CHORD_SAMPLES:
+        if i < CHORD_SAMPLES:
             depth, _ = penetration_at(env, place, (share - 1.0) * dt)
             if depth > accepted:
                 return False

@@ -8,7 +8,9 @@ from polypod.body.pose import wished_height
 from polypod.body.reach import body_within_reach
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
-from polypod.controller.feet import Errand, plan_foot, rest_offset
+from polypod.controller.errand import Errand
+from polypod.controller.feet import plan_foot
+from polypod.controller.rest import rest_offset
 from polypod.controller.settle import feet_fit, wish_feet
 from polypod.controller.steering import plan_pose
 from polypod.environment.table import surface

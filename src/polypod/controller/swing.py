@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.controller.feet import Errand
+from polypod.controller.errand import Errand
 from polypod.environment.table import shift_of
 from polypod.gait.needle import progress_since_lift, swing_progress
 from polypod.math.quat import Quat, load_quat, slerp

@@ -1,4 +1,4 @@
-"""Terrain made from a few numbers: hills, rocks, stairs, steps, a slope.
+"""Terrain made from a few numbers: hills, rocks, stairs, steps, a slope, trenches.
 
 All lengths are metres and are keys, so that the same ground can be made for a fly or a dinosaur.
 Everything climbs along +z, the way a creature faces, and lies about x = 0.
@@ -181,12 +181,57 @@ def slope(angle: float = 0.35, length: float = 20.0, start: float = 1.0) -> Grou
     return Ground(np.array([[0.0, 0.0], [rise, rise]]), length, (0.0, start))
 
 
+def trenches(
+    seed: int = 0,
+    narrowest: float = 0.05,
+    widest: float = 0.2,
+    apart: float = 1.0,
+    depth: float = 1.0,
+    count: int = 10,
+    width: float = 20.0,
+    start: float = 1.0,
+) -> Ground:
+    """Return level ground cut by trenches across the way, with vertical sides.
+
+    Args:
+        seed: of their widths and distances.
+        narrowest: metres, the least width of a trench.
+        widest: metres, the greatest.
+        apart: metres of ground between two trenches; the least is half of it.
+        depth: metres, down to their floor, which also lies beside the ground's width.
+        count: trenches.
+        width: metres, across.
+        start: z of the first trench, metres.
+    """
+    _within("trenches", "count", count, 1, MOST_BLOCKS)
+    _within("trenches", "widest", widest, narrowest, LARGEST)
+    random = np.random.default_rng(seed)
+    gap = random.uniform(narrowest, widest, count)
+    ground = random.uniform(0.5 * apart, apart, count)
+    # Where each trench begins and ends, along z.
+    first = start + np.concatenate([[0.0], np.cumsum(gap + ground)[:-1]])
+    last = first + gap
+    cell = 0.5 * (float(last[-1]) - start)
+    # The floor climbs to the ground hidden inside the first and the last slab.
+    near, far = start - 2.0 * cell, float(last[-1]) + 2.0 * cell
+    begins, ends = [near, *last], [*first, far]
+    parts = []
+    for i, (begin, end) in enumerate(zip(begins, ends, strict=True)):
+        centre = (0.0, -0.5 * depth, 0.5 * float(begin + end))
+        box_size = (width, depth, float(end - begin))
+        parts.append(Obstacle.box(box_size, centre, name=f"ground-{i + 1}"))
+    floor = np.zeros((7, 2))
+    floor[1:6] = -depth
+    return Ground(floor, cell, (0.0, near), tuple(parts))
+
+
 GENERATORS: dict[str, Callable[..., Ground]] = {
     "hills": hills,
     "stairs": stairs,
     "steps": steps,
     "rocks": rocks,
     "slope": slope,
+    "trenches": trenches,
 }
 _ANY_SIGN = ("start", "angle")
 

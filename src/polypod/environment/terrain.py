@@ -1,8 +1,8 @@
 """The ground: a heightmap, bilinear between its samples, that goes on for ever at its edges.
 
 A heightmap cannot hold a vertical face: between two samples it slopes. So the generators with
-risers (`stairs`, `steps`) put exact boxes on the ground: they are obstacles of the terrain's own,
-listed in `parts`, and a foot beside a riser is beside a truly vertical face.
+vertical faces (`stairs`, `steps`, `trenches`) put exact boxes on the ground: they are obstacles of
+the terrain's own, listed in `parts`, and a foot beside a riser is beside a truly vertical face.
 """
 
 from __future__ import annotations
@@ -183,6 +183,11 @@ class Terrain:
     def slope(cls, angle: float, **keys: float) -> Terrain:
         """Return an even slope up, along +z, of `angle` radians: see `generators.slope`."""
         return generated("slope", angle=angle, **keys)
+
+    @classmethod
+    def trenches(cls, seed: int = 0, **keys: float) -> Terrain:
+        """Return level ground cut by trenches: see `generators.trenches` for the keys."""
+        return generated("trenches", seed=seed, **keys)
 
     def height_at(self, x: float, z: float) -> float:
         """Return the ground's height in metres, without the terrain's parts."""

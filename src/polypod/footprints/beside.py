@@ -8,7 +8,7 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable
 from polypod.footprints.frame import foot_frame, turn_out
-from polypod.footprints.pair import try_direct
+from polypod.footprints.pair import POOR, try_direct
 from polypod.footprints.place import LOWEST, judge_place
 from polypod.footprints.scratch import PlanScratch
 from polypod.footprints.settings import DETOUR, PlanSettings, StepRequest
@@ -72,7 +72,9 @@ def try_beside(
             offset = turn_out(frame, Vec3(math.cos(turn) * away, 0.0, math.sin(turn) * away))
             x = request.preferred_world.x + offset.x
             z = request.preferred_world.z + offset.z
-            score, y = judge_place(env, settings, request, legs, scratch.lift.near, x, z)
+            score, y = judge_place(
+                env, settings, request, legs, scratch.ahead, scratch.lift.near, x, z
+            )
             if score < 0.0:
                 continue
             end = Vec3(x, y, z)
@@ -81,6 +83,6 @@ def try_beside(
             if pair > least:
                 copy_path(scratch.trial, path)
                 best = pair
-        if best > before:
+        if best > before and best >= POOR:
             break
     return best

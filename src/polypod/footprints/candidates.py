@@ -9,9 +9,10 @@ from polypod.compute import kernel
 from polypod.environment.maps import LocalMap
 from polypod.environment.table import EnvironmentTable, is_forbidden
 from polypod.footprints.place import judge_place
-from polypod.footprints.scratch import CandidateScratch
+from polypod.footprints.scratch import SHORTER_STEPS, CandidateScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
-from polypod.math.vec3 import Vec3, distance, load_vec3
+from polypod.math.vec3 import Vec3, distance, load_vec3, mix, store_vec3
+from polypod.paths.apart import LegsAhead
 from polypod.paths.check import leg_gap
 from polypod.paths.scratch import GridScratch, OtherLegs
 
@@ -19,6 +20,8 @@ from polypod.paths.scratch import GridScratch, OtherLegs
 INSET = 0.02
 # Places picked for each one kept: some that the maps allow fail the exact test.
 PICKS = 2
+# The shortest of the shorter steps that are looked at: share of the way back.
+SHORTEST = 0.7
 STRUCK = -1e300  # the first score of a cell that is out
 
 
@@ -138,11 +141,65 @@ def rule_out(
 
 
 @kernel
+def keep_place(
+    found: CandidateScratch, kept: int, score: float, place: Vec3, row: int, column: int
+) -> None:
+    """Insert a place among the `kept` ones, which stay in descending order of score."""
+    at = kept
+    while at > 0 and found.score[at - 1] < score:
+        found.score[at] = found.score[at - 1]
+        for axis in range(3):
+            found.place[at, axis] = found.place[at - 1, axis]
+        for axis in range(2):
+            found.place_cell[at, axis] = found.place_cell[at - 1, axis]
+        at -= 1
+    found.score[at] = score
+    store_vec3(found.place[at], place)
+    found.place_cell[at, 0] = row
+    found.place_cell[at, 1] = column
+
+
+@kernel
+def judge_shorter(
+    env: EnvironmentTable,
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    legs_ahead: LegsAhead,
+    window: LocalMap,
+    near: Any,
+    found: CandidateScratch,
+    kept: int,
+) -> int:
+    """Judge places on the way to the preferred one, where the leg ahead is not yet away from.
+
+    Returns how many places are kept. Legs of one side step into each other's places: a shorter
+    step keeps clear where one to the sides of the place does not.
+    """
+    cell = window.place[2]
+    wanted = request.preferred_world
+    for k in range(1, SHORTER_STEPS + 1):
+        if kept >= found.score.shape[0]:
+            break
+        point = mix(wanted, request.start_world, SHORTEST * k / SHORTER_STEPS)
+        if math.hypot(point.x - wanted.x, point.z - wanted.z) > request.search_radius:
+            break
+        row = int((point.z - window.place[1]) / cell)
+        column = int((point.x - window.place[0]) / cell)
+        score, y = judge_place(env, settings, request, legs, legs_ahead, near, point.x, point.z)
+        if score >= 0.0:
+            keep_place(found, kept, score, Vec3(point.x, y, point.z), row, column)
+            kept += 1
+    return kept
+
+
+@kernel
 def judge_candidates(
     env: EnvironmentTable,
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
+    legs_ahead: LegsAhead,
     window: LocalMap,
     cells: int,
     near: Any,
@@ -157,8 +214,8 @@ def judge_candidates(
     """
     cell = window.place[2]
     spacing = settings.candidate_spacing * request.leg_length
-    limit = min(settings.candidate_limit, found.score.shape[0] - 1)
-    room = kept + limit
+    limit = min(settings.candidate_limit, found.score.shape[0] - 1 - SHORTER_STEPS)
+    room = min(kept + limit, found.score.shape[0])
     if kept > 0:
         rule_out(window, found, cells, request.preferred_world, load_vec3(found.place[0]), spacing)
     for _ in range(PICKS * limit):
@@ -174,28 +231,14 @@ def judge_candidates(
         column = found.cell[best, 1]
         found.first_score[best] = STRUCK
         point = offer(window, row, column, request.preferred_world)
-        score, y = judge_place(env, settings, request, legs, near, point.x, point.z)
+        score, y = judge_place(env, settings, request, legs, legs_ahead, near, point.x, point.z)
         if score < 0.0:
             x = window.place[0] + (column + 0.5) * cell
             point = Vec3(x, 0.0, window.place[1] + (row + 0.5) * cell)
-            score, y = judge_place(env, settings, request, legs, near, point.x, point.z)
+            score, y = judge_place(env, settings, request, legs, legs_ahead, near, point.x, point.z)
         if score < 0.0:
             continue
         rule_out(window, found, cells, request.preferred_world, point, spacing)
-        # Insertion keeps the places in descending order of score.
-        at = kept
-        while at > 0 and found.score[at - 1] < score:
-            found.score[at] = found.score[at - 1]
-            for axis in range(3):
-                found.place[at, axis] = found.place[at - 1, axis]
-            for axis in range(2):
-                found.place_cell[at, axis] = found.place_cell[at - 1, axis]
-            at -= 1
-        found.score[at] = score
-        found.place[at, 0] = point.x
-        found.place[at, 1] = y
-        found.place[at, 2] = point.z
-        found.place_cell[at, 0] = row
-        found.place_cell[at, 1] = column
+        keep_place(found, kept, score, Vec3(point.x, y, point.z), row, column)
         kept += 1
     return kept

@@ -7,6 +7,7 @@ from polypod.environment.table import EnvironmentTable
 from polypod.footprints.scratch import TALLY_PATHS, PlanScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.math.vec3 import Vec3
+from polypod.paths.apart import LegsAhead, path_factor
 from polypod.paths.check import chords_clear, deepest, meets_legs, out_of_reach
 from polypod.paths.curve import PATH_KNOTS, PathRow
 from polypod.paths.lift import BLEND, SHORTEST, arc_start, lift_path, place_knots, straight_plan
@@ -14,6 +15,8 @@ from polypod.paths.score import path_score
 from polypod.paths.scratch import LiftScratch, OtherLegs
 
 NOTHING = -1.0
+# A pair that scores less, as where legs would touch, is taken only if farther places do no better.
+POOR = 0.5
 
 
 @kernel
@@ -22,6 +25,7 @@ def try_pair(
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
+    legs_ahead: LegsAhead,
     lift: LiftScratch,
     points: int,
     end: Vec3,
@@ -48,6 +52,9 @@ def try_pair(
         pair = (1.0 - settings.weight_path) * place_score + settings.weight_path * quality
         if pair <= best or out_of_reach(request, settings.reach, trial):
             return NOTHING, 0.0
+        pair *= path_factor(legs_ahead, request, trial)
+        if pair <= best:
+            return NOTHING, 0.0
         if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
             return NOTHING, 0.0
         if deepest(env, settings.penetration * leg, request, trial, lift.extra) <= 0.0:
@@ -73,5 +80,6 @@ def try_direct(
     points = straight_plan(scratch.lift, request.start_world, end)
     scratch.tally[TALLY_PATHS] += 1
     return try_pair(
-        env, settings, request, legs, scratch.lift, points, end, place_score, best, scratch.trial
-    )
+        env, settings, request, legs, scratch.ahead, scratch.lift, points, end, place_score, best,
+        scratch.trial,
+    )  # fmt: skip

@@ -21,6 +21,7 @@ from polypod.footprints.settings import (
     landing_time,
 )
 from polypod.math.vec3 import Vec3, distance
+from polypod.paths.apart import LegsAhead, place_factor
 from polypod.paths.check import leg_gap
 from polypod.paths.near import obstacles_near
 from polypod.paths.scratch import OtherLegs
@@ -165,45 +166,32 @@ def is_foot_wet(env: EnvironmentTable, foot: FootShape, x: float, z: float) -> b
 
 
 @kernel
-def crosses_leg(legs: OtherLegs, s: int, hip: Vec3, x: float, z: float) -> bool:
-    """Return whether, in plan, the line from the hip to the place crosses leg segment `s`."""
-    ax = legs.a[s, 0]
-    az = legs.a[s, 2]
-    bx = legs.b[s, 0]
-    bz = legs.b[s, 2]
-    side_a = (x - hip.x) * (az - hip.z) - (z - hip.z) * (ax - hip.x)
-    side_b = (x - hip.x) * (bz - hip.z) - (z - hip.z) * (bx - hip.x)
-    if side_a * side_b >= 0.0:
-        return False
-    side_hip = (bx - ax) * (hip.z - az) - (bz - az) * (hip.x - ax)
-    side_foot = (bx - ax) * (z - az) - (bz - az) * (x - ax)
-    return side_hip * side_foot < 0.0
-
-
-@kernel
 def leg_factor(
-    settings: PlanSettings, request: StepRequest, legs: OtherLegs, x: float, z: float
+    settings: PlanSettings,
+    request: StepRequest,
+    legs: OtherLegs,
+    legs_ahead: LegsAhead,
+    place: Vec3,
 ) -> float:
-    """Return 1, the factor for crossed legs, or REJECTED where another leg is in the place."""
+    """Return 1, less where legs come near or cross, or REJECTED where another is in the place."""
     leg = request.leg_length
     foot = max(request.foot_half_x, request.foot_half_z)
-    factor = 1.0
     for s in range(request.other_foot_count):
         clear = legs.radius[s] + foot + settings.leg_gap * leg
-        gap = leg_gap(legs, s, x, z)
+        gap = leg_gap(legs, s, place.x, place.z)
         if gap < clear:
             at_start = leg_gap(legs, s, request.start_world.x, request.start_world.z)
             if gap < 0.999 * at_start:
                 return REJECTED
-        if crosses_leg(legs, s, request.hip_touchdown, x, z):
-            factor = settings.crossing
     # Its own side of the body: no further across than the preferred place is out.
     side = request.side
-    out = (x - request.body_position.x) * side.x + (z - request.body_position.z) * side.z
+    away = place - request.body_position
+    out = away.x * side.x + away.z * side.z
     wanted = (request.preferred_world.x - request.body_position.x) * side.x + (
         request.preferred_world.z - request.body_position.z
     ) * side.z
-    return min(factor, settings.crossing) if out < min(0.0, wanted) else factor
+    factor = place_factor(legs_ahead, request, place)
+    return factor * settings.crossing if out < min(0.0, wanted) else factor
 
 
 @kernel
@@ -258,6 +246,7 @@ def judge_place(
     settings: PlanSettings,
     request: StepRequest,
     legs: OtherLegs,
+    legs_ahead: LegsAhead,
     near: Any,
     x: float,
     z: float,
@@ -269,6 +258,7 @@ def judge_place(
         settings: margins and weights.
         request: the step.
         legs: the other legs, of which `request.other_foot_count` segments count.
+        legs_ahead: all of them as they will be.
         near: scratch for a list of obstacles.
         x: world x, m.
         z: world z, m.
@@ -306,7 +296,7 @@ def judge_place(
     ):
         heading = math.atan2(course_x, course_z)
         leave = exit_score(env, margin, x, z, high, heading, step, ahead)
-    factor = leg_factor(settings, request, legs, x, z)
+    factor = leg_factor(settings, request, legs, legs_ahead, Vec3(x, y, z))
     if factor < 0.0:
         return REJECTED, y
     away = math.hypot(x - request.preferred_world.x, z - request.preferred_world.z)

@@ -8,9 +8,9 @@ from polypod.compute import kernel
 from polypod.environment.maps import LocalMap, fill_maps
 from polypod.environment.table import EnvironmentTable, surface_at
 from polypod.footprints.beside import is_open, try_beside
-from polypod.footprints.candidates import close_cells, judge_candidates, list_cells
+from polypod.footprints.candidates import close_cells, judge_candidates, judge_shorter, list_cells
 from polypod.footprints.frame import foot_frame, legs_in, legs_out, path_out, request_in
-from polypod.footprints.pair import NOTHING, try_direct, try_pair
+from polypod.footprints.pair import NOTHING, POOR, try_direct, try_pair
 from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import (
     MAP_CELLS,
@@ -130,8 +130,9 @@ def best_pair(
                 continue
             scratch.tally[TALLY_PATHS] += 1
             pair, _ = try_pair(
-                env, settings, request, legs, lift, points, end, place_score, best, scratch.trial
-            )
+                env, settings, request, legs, scratch.ahead, lift, points, end, place_score, best,
+                scratch.trial,
+            )  # fmt: skip
             if pair > best:
                 best = pair
                 copy_path(scratch.trial, path)
@@ -171,10 +172,14 @@ def search(
         store_vec3(scratch.found.place[0], Vec3(wanted.x, y, wanted.z))
         scratch.found.place_cell[0, 0] = int((wanted.z - window.place[1]) / window.place[2])
         scratch.found.place_cell[0, 1] = int((wanted.x - window.place[0]) / window.place[2])
-    # Where no pair of the first candidates is valid, the next ones get their turn.
+    if direct_score < POOR:
+        kept = judge_shorter(
+            env, settings, request, legs, scratch.ahead, window, near, scratch.found, kept
+        )
+    # Where no pair of the first candidates is good, the next ones get their turn.
     for _ in range(ROUNDS):
         kept = judge_candidates(
-            env, settings, request, legs, window, cells, near, scratch.found, kept
+            env, settings, request, legs, scratch.ahead, window, cells, near, scratch.found, kept
         )
         if kept == 0:
             break
@@ -194,7 +199,7 @@ def search(
         scratch.tally[TALLY_CANDIDATES] += kept
         for layer in range(slices):
             scratch.tally[TALLY_WAVEFRONTS] += scratch.grid.spread[layer]
-        if best >= 0.0:
+        if best >= POOR:
             break
         kept = 0
     return best
@@ -231,13 +236,16 @@ def plan_step(
     wanted = request.preferred_world
     best = NOTHING
     near = scratch.lift.near
-    place_score, y = judge_place(env, settings, request, legs, near, wanted.x, wanted.z)
+    place_score, y = judge_place(
+        env, settings, request, legs, scratch.ahead, near, wanted.x, wanted.z
+    )
     if place_score >= 0.0:
         end = Vec3(wanted.x, y, wanted.z)
         best, quality = try_direct(env, settings, request, legs, scratch, place_score, end, best)
         if best >= 0.0:
             copy_path(scratch.trial, path)
-            unhindered = quality >= UNHINDERED and place_score >= settings.open_score
+            good = min(place_score, best) >= settings.open_score
+            unhindered = quality >= UNHINDERED and good
             if unhindered or settings.first_pair:
                 scratch.tally[TALLY_DIRECT] = 1
                 return True, best
@@ -250,9 +258,12 @@ def plan_step(
         return True, best
     frame = foot_frame(request)
     legs_in(frame, legs, request.other_foot_count)
+    for k in range(5):
+        scratch.ahead.frame[k] = frame[k]
     own = request_in(frame, request)
     best = search(env, settings, scratch, own, legs, place_score, best, path)
     legs_out(frame, legs, request.other_foot_count)
+    scratch.ahead.frame[4] = 0.0
     if best >= 0.0:
         path_out(frame, path)
     return best >= 0.0, max(best, 0.0)

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 
 from polypod.environment.maps import LocalMap, make_local_map
 from polypod.footprints.settings import PlanSettings
+from polypod.paths.apart import LegsAhead
 from polypod.paths.curve import PathRow, path_store
 from polypod.paths.scratch import GridScratch, LiftScratch, grid_scratch, lift_scratch
 
 MAP_CELLS = 70  # most cells a side
+SHORTER_STEPS = 4  # looked at where the preferred place is poor, as where legs would touch
 
 # Rows of `PlanScratch.tally`.
 TALLY_DIRECT = 0  # 1: the direct swing ended the search
@@ -22,7 +24,7 @@ TALLY_PATHS = 3  # 3D paths made
 
 
 class CandidateScratch(NamedTuple):
-    """Places a foot may land on; C is the candidate limit and one for the preferred place."""
+    """Places for a foot; C is the candidate limit, the shorter steps and the preferred place."""
 
     cell: NDArray[np.int64]  # [n n, 2] row and column of cells that may accept a foot
     first_score: NDArray[np.float64]  # [n n] by the maps alone
@@ -37,6 +39,7 @@ class PlanScratch(NamedTuple):
     other_a: NDArray[np.float64]  # [S, 3] world, m: ends of the other legs' segments
     other_b: NDArray[np.float64]  # [S, 3]
     other_radius: NDArray[np.float64]  # [S] m
+    ahead: LegsAhead  # the legs as they will be
     window: LocalMap
     grid: GridScratch
     lift: LiftScratch
@@ -45,19 +48,23 @@ class PlanScratch(NamedTuple):
     tally: NDArray[np.int64]  # [4] what the last request took, for display and measurements
 
 
-def make_plan_scratch(settings: PlanSettings, other_segments: int) -> PlanScratch:
+def make_plan_scratch(
+    settings: PlanSettings, ahead: LegsAhead, company_segments: int = 0
+) -> PlanScratch:
     """Return the memory for one thread.
 
     Args:
         settings: with the largest candidate and slice limits that will be asked for.
-        other_segments: the most segments of other legs.
+        ahead: the legs.
+        company_segments: the most segments of other creatures.
     """
-    n = MAP_CELLS
-    places = settings.candidate_limit + 1
+    n, other_segments = MAP_CELLS, len(ahead.leg) + company_segments
+    places = settings.candidate_limit + 1 + SHORTER_STEPS
     return PlanScratch(
         other_a=np.zeros((other_segments, 3)),
         other_b=np.zeros((other_segments, 3)),
         other_radius=np.zeros(other_segments),
+        ahead=ahead,
         window=make_local_map(n),
         grid=grid_scratch(n, settings.slice_limit + 1),
         lift=lift_scratch(),

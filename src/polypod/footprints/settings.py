@@ -55,7 +55,7 @@ class PlanSettings(NamedTuple):
     weight_edge: float = 0.15
     weight_reach: float = 0.20
     weight_escape: float = 0.10
-    crossing: float = 0.3  # factor on the score of a place that makes legs cross
+    crossing: float = 0.3  # factor on the score of a place across the body from its leg
 
     # Weights of a path's score; they are normalised by their sum.
     weight_length: float = 0.5

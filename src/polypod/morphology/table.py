@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from polypod.morphology.girth import section_radii
 from polypod.morphology.layout import Layout
 from polypod.morphology.limb import Limb
 from polypod.morphology.skeleton import Skeleton
@@ -73,6 +74,9 @@ def leg_table(
         point[k, :turned] = skeleton.position[list(limb.joints)] - centre
         # Unused places repeat the effector, so that they are finite and far from nothing.
         point[k, turned:] = limb.effector - centre
+    radius = np.zeros((count, most + 1))
+    for k, of_sections in enumerate(section_radii(skeleton, limbs)):
+        radius[k, : len(of_sections)] = of_sections
     away = sole_stance - skeleton.position[[limb.joints[0] for limb in limbs]]
     return LegTable(
         joint_count=np.array([len(limb.joints) for limb in limbs], np.int64),
@@ -83,6 +87,7 @@ def leg_table(
         sole_stance=sole_stance - centre,
         length=np.array([limb.length for limb in limbs]),
         foot_half_size=np.array([limb.sole.half_size for limb in limbs]),
+        section_radius=radius,
         side=layout.side,
         row=layout.row,
         upright=np.hypot(away[:, 0], away[:, 2]) < -UPRIGHT * away[:, 1],

@@ -39,6 +39,8 @@ class LegTable(NamedTuple):
     sole_stance: FloatArray  # [K, 3] body frame, m: where the sole is when the creature stands
     length: FloatArray  # [K] m, hip to sole along the chain
     foot_half_size: FloatArray  # [K, 2] m, half extents of the sole's shape along body x and z
+    section_radius: FloatArray  # [K, M + 1] m, half the thickness from each point to the next, the
+    # last of an oriented foot from ankle to sole; 0 beyond
     side: IntArray  # [K] +1 left, -1 right, 0 in the middle
     row: IntArray  # [K] 0 for the hindmost legs, counted forward
     upright: BoolArray  # [K] the leg stands below its hip; False: it sprawls

@@ -12,6 +12,7 @@ import os
 from numpy.typing import ArrayLike
 
 from polypod.environment.table import EnvironmentTable
+from polypod.report.apart import apart_figures
 from polypod.report.arrays import FloatArray
 from polypod.report.files import replacing
 from polypod.report.ground import Ground
@@ -59,6 +60,7 @@ def measure(
         **swing_figures(recording, ground),
         **forbidden_figures(recording, ground),
         **joint_figures(recording, joint_limits),
+        **apart_figures(recording),
         **stride_figures(recording, gait_duty, gait_phase),
         **trunk_figures(recording, ground),
     }

@@ -55,7 +55,7 @@ YARDSTICKS = (
     _most("duty_error", 0.06, "a duty factor is {} off the gait's"),
     _most("phase_error", 0.05, "a footfall is {} of a stride off the gait's"),
     Limit("swing_apex_of_leg", 0.08, 0.35, "swings rise by {} leg lengths"),
-    _most("legs_crossed_share", 0.0, "legs cross in {} of the frames"),
+    _most("legs_touching_share", 1e-3, "legs touch each other in {} of the frames"),
 )
 
 

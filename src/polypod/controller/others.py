@@ -1,0 +1,119 @@
+"""Where a creature's other legs are, and will be, while one of them steps."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.body.reach import effector_world
+from polypod.body.support import body_rotation, foot_on_its_way, smooth_step
+from polypod.compute import kernel
+from polypod.controller.errand import Errand
+from polypod.controller.rest import body_height_at, rest_offset
+from polypod.controller.steering import PlanPose, predict
+from polypod.controller.swing import foot_along, swing_time_left
+from polypod.environment.table import surface
+from polypod.gait.needle import swing_progress
+from polypod.math.intervals import wrap_phase
+from polypod.math.quat import load_quat, store_quat
+from polypod.math.vec3 import Vec3, length_plan, load_vec3, mix, store_vec3
+from polypod.paths.apart import MOMENTS
+
+
+@kernel
+def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int:
+    """Write the segments of the other legs near foot `k` to the scratch; return their number.
+
+    Of each leg whose foot could be met, the last section before the sole counts, as it is now for
+    a standing foot and as it will be for a swinging one.
+    """
+    count = 0
+    legs = tables.legs
+    for other in range(state.swinging.shape[1]):
+        gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
+        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
+            continue
+        sole = foot_on_its_way(c, other, state)
+        if state.swinging[c, other]:
+            sole = load_vec3(state.foot_target[c, other])
+        knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
+        moved = sole - load_vec3(state.foot_reached[c, other])
+        store_vec3(plan.other_a[count], sole)
+        store_vec3(plan.other_b[count], knee + moved)
+        plan.other_radius[count] = 0.5 * max(
+            legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
+        )
+        plan.ahead.leg[count] = other
+        count += 1
+    plan.ahead.own[0] = k
+    plan.ahead.others[0] = count
+    return count
+
+
+@kernel
+def foot_later(
+    c: int, k: int, seconds: float, then: PlanPose, command: Any, state: Any, tables: Any,
+    settings: Any, env: Any,
+) -> Vec3:  # fmt: skip
+    """Return where a foot will be some seconds from now, when the body is at a predicted pose.
+
+    A standing foot stays until the needle enters its sector, and then goes to where it would rest
+    at mid-stance, on level ground as high as where it is.
+    """
+    if state.swinging[c, k]:
+        left = swing_time_left(c, k, state)
+        if seconds >= left:
+            return load_vec3(state.foot_target[c, k])
+        now = state.swing_progress[c, k]
+        sole, _ = foot_along(c, k, now + (1.0 - now) * seconds / max(left, 1e-9), state, env)
+        return sole
+    here = load_vec3(state.foot[c, k])
+    rate = state.cycle_rate[c]
+    extent = state.swing_extent[c, k]
+    if rate <= 0.0 or extent <= 0.0:
+        return here
+    wait = 0.0
+    if swing_progress(state.needle[c], state.swing_start[c, k], extent) < 0.0:
+        wait = wrap_phase(state.swing_start[c, k] - state.needle[c]) / rate
+    else:
+        return here  # its turn has come, and it found no place yet
+    if seconds <= wait:
+        return here
+    share = min((seconds - wait) * rate / extent, 1.0)
+    offset = rest_offset(c, k, then.heading, state, tables, settings)
+    half = 0.5 * (1.0 - extent) / rate * then.speed
+    course = then.heading + command.travel[c]
+    x = then.x + offset.x + math.sin(course) * half
+    z = then.z + offset.z + math.cos(course) * half
+    height, _ = surface(env, x, z)
+    rise = command.step_height[c] * 4.0 * share * (1.0 - share)
+    return mix(here, Vec3(x, height, z), smooth_step(share)) + Vec3(0.0, rise, 0.0)
+
+
+@kernel
+def look_ahead(
+    c: int, dt: float, pose: PlanPose, errand: Errand, stance: float, state: Any, command: Any,
+    tables: Any, settings: Any, env: Any, plan: Any,
+) -> None:  # fmt: skip
+    """Write where the body and the gathered legs will be at the moments of a step.
+
+    `stance` is how long the foot will stand after it, s; `pose` is the body's at the end of this
+    frame of `dt` seconds, at whose start the feet still are.
+    """
+    ahead = plan.ahead
+    ahead.frame[4] = 0.0
+    for moment in range(MOMENTS.shape[0]):
+        share = MOMENTS[moment]
+        seconds = min(share, 1.0) * errand.seconds + max(share - 1.0, 0.0) * stance
+        then = predict(pose, max(seconds - dt, 0.0), c, state, command, tables, settings)
+        place = Vec3(then.x, body_height_at(c, then.x, then.z, state), then.z)
+        store_vec3(ahead.position[moment], place)
+        turn = body_rotation(then.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+        store_quat(ahead.rotation[moment], turn)
+        for other in range(ahead.others[0]):
+            leg = ahead.leg[other]
+            sole = foot_later(c, leg, seconds, then, command, state, tables, settings, env)
+            turned = load_quat(state.foot_rotation[c, leg])
+            store_vec3(ahead.sole[moment, other], sole)
+            store_vec3(ahead.effector[moment, other], effector_world(leg, tables, sole, turned))
+            ahead.posed[moment, other] = False

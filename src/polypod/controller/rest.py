@@ -1,0 +1,52 @@
+"""Where feet rest beside the body, and how high the body would be elsewhere."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.body.support import body_rotation
+from polypod.compute import kernel
+from polypod.math.quat import rotate
+from polypod.math.vec3 import Vec3, load_vec3
+
+
+@kernel
+def place_body(c: int, k: int, state: Any, tables: Any) -> Vec3:
+    """Return the rest place of a sole, spacing included; body frame, m."""
+    stand = load_vec3(tables.legs.sole_stance[k])
+    return Vec3(stand.x + state.spacing[c, k, 0], stand.y, stand.z + state.spacing[c, k, 1])
+
+
+@kernel
+def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, settings: Any) -> Vec3:
+    """Return where a sole rests beside the body centre, world axes, m; only the plan counts.
+
+    The body leans with the slope, and the rest places with it; upright legs take part of the lean
+    back, so that the feet stay under the body.
+    """
+    turn = body_rotation(heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    offset = rotate(turn, place_body(c, k, state, tables))
+    if tables.legs.upright[k]:
+        under = rotate(turn, Vec3(0.0, tables.legs.sole_stance[k, 1], 0.0))
+        offset = offset - Vec3(under.x, 0.0, under.z) * settings.upright_lean
+    return offset
+
+
+@kernel
+def body_height_at(c: int, x: float, z: float, state: Any) -> float:
+    """Return the height that the body would have elsewhere, carried along the feet's plane."""
+    dx = x - state.position[c, 0]
+    dz = z - state.position[c, 2]
+    sine = math.sin(state.heading[c])
+    cosine = math.cos(state.heading[c])
+    rise: float = state.slope[c, 0] * (dx * sine + dz * cosine) + state.slope[c, 1] * (
+        dx * cosine - dz * sine
+    )
+    return state.position[c, 1] + rise
+
+
+@kernel
+def level_height(c: int, x: float, z: float, state: Any) -> float:
+    """Return the height of the feet's plane at a place, world."""
+    return body_height_at(c, x, z, state) - state.position[c, 1] + state.plane_height[c]
