@@ -142,8 +142,8 @@ class World:
             herd.join(self._company, first)
             first += herd.count
 
-    def _look_round(self) -> None:
-        """Let each creature see where the others are as the frame begins."""
+    def look_round(self) -> None:
+        """Let each creature see where the others are now; `step` does it as a frame begins."""
         self._company.most[:] = 0.0
         self._company.size[0] = 0
         if sum(herd.count for herd in self.herds) < 2:
@@ -181,7 +181,7 @@ class World:
         if not 0.0 < dt <= LONGEST_STEP:
             raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
         self.environment.advance(self.time + dt)
-        self._look_round()
+        self.look_round()
         for herd in self.herds:
             for worker in range(self.threads):
                 herd.scratch(worker)

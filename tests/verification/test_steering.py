@@ -12,7 +12,7 @@ from polypod.controller.steering import CYCLE, PREDICTION_STEPS, PlanPose, predi
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 
-REST = PlanPose(*[0.0] * len(PlanPose._fields))
+REST = PlanPose(*[0.0] * len(PlanPose._fields))._replace(pace=1.0)
 
 
 @pytest.fixture(scope="module")

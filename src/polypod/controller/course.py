@@ -23,6 +23,7 @@ CHANGE_COST = 0.15
 # Where other creatures are in the way, it also costs how soon it meets them, and to go slower.
 THREAT_COST = 2.0
 PACE_COST = 1.0
+PACE_CHANGE_COST = 0.3
 PACES = 3
 # Then the fan is wider, to get by who stands close; and a turn to the right costs so much more: of
 # two whose ways cross one then goes before and the other behind, where else both would turn along.
@@ -105,6 +106,8 @@ def choose_course(
         for slower in range(PACES if near > 0 else 1):
             share = 1.0 - slower / (PACES - 1.0)
             whole = cost + PACE_COST * (1.0 - share)
+            if near > 0:
+                whole += PACE_CHANGE_COST * abs(share - state.pace[c])
             if near > 0 and whole < least:
                 speed = command.speed[c] * share
                 x = math.sin(direction) * speed

@@ -21,16 +21,15 @@ JUDGED = 16.0
 JUDGED_AGAIN = 5.0
 LEAST = 0.1
 # Who makes none waits so many pendulum times, each time twice as long up to the longest; among
-# others, who move on, no longer than the first time.
+# others, who move on, less long.
 FIRST_WAIT = 6.0
 LONGEST_WAIT = 48.0
+LONGEST_AMONG_OTHERS = 12.0
 # Something else is asked for where heading or goal are another by so much, rad and leg lengths.
 TURNED = 0.2
 MOVED = 0.5
 # A place that was not got past is so far ahead of the front feet, leg lengths.
 AHEAD = 0.3
-# Less waiting for others than this, leg pendulum times, is none.
-YIELDED = 1.0
 
 
 @kernel
@@ -99,9 +98,9 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any) -> No
     state.judged[c, 2] = 0.0
     if not futile:
         state.halts[c] = 0
-    elif command.waypoint_count[c] > 0 and state.yielded[c] < YIELDED * pendulum:
+    elif command.waypoint_count[c] > 0 and not state.crowded[c]:
         avoid_ahead(c, state, command, tables)
     else:
-        longest = FIRST_WAIT if state.crowded[c] else LONGEST_WAIT
+        longest = LONGEST_AMONG_OTHERS if state.crowded[c] else LONGEST_WAIT
         state.halted[c] = min(FIRST_WAIT * 2.0 ** state.halts[c], longest) * pendulum
         state.halts[c] = min(state.halts[c] + 1, 8)
