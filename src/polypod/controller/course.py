@@ -59,6 +59,33 @@ def way_low(
 
 
 @kernel
+def price_paces(
+    c: int, near: int, direction: float, cost: float, least: float, room: float,
+    state: Any, command: Any, tables: Any, scratch: Any,
+) -> tuple[float, float]:  # fmt: skip
+    """Return what a course costs at its best pace among others, and that pace: 1, 1/2 or 0.
+
+    `cost` is what the course costs alone, and `least` what others do; dearer ones are not looked at
+    closely. `room` is the share of the room for feet that is kept from others.
+    """
+    horizon = FORESIGHT * tables.pendulum_time
+    cheapest = math.inf
+    pace = 1.0
+    for slower in range(PACES):
+        share = 1.0 - slower / (PACES - 1.0)
+        whole = cost + PACE_COST * (1.0 - share) + PACE_CHANGE_COST * abs(share - state.pace[c])
+        if whole < min(least, cheapest):
+            speed = command.speed[c] * share
+            x = math.sin(direction) * speed
+            z = math.cos(direction) * speed
+            whole += THREAT_COST * threat(state.member[c], near, x, z, room, horizon, scratch)
+        if whole < cheapest:
+            cheapest = whole
+            pace = share
+    return cheapest, pace
+
+
+@kernel
 def choose_course(
     c: int, near: int, state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any
 ) -> tuple[float, float]:
@@ -81,7 +108,6 @@ def choose_course(
         margin = state.route.margin[c]
         # What lies behind the place where it turns is not in its way.
         reach = min(reach, math.hypot(aim.to_x, aim.to_z))
-    horizon = FORESIGHT * tables.pendulum_time
     patience = 1.0 + state.yielded[c] / (PATIENCE * tables.pendulum_time)
     room = settings.personal_space / patience
     level = state.plane_height[c]
@@ -103,20 +129,15 @@ def choose_course(
         if near > 0 and angle < 0.0:
             turn *= RIGHT_COST
         cost = 2.0 * blocked + DETOUR_COST * turn + CHANGE_COST * change
-        for slower in range(PACES if near > 0 else 1):
-            share = 1.0 - slower / (PACES - 1.0)
-            whole = cost + PACE_COST * (1.0 - share)
-            if near > 0:
-                whole += PACE_CHANGE_COST * abs(share - state.pace[c])
-            if near > 0 and whole < least:
-                speed = command.speed[c] * share
-                x = math.sin(direction) * speed
-                z = math.cos(direction) * speed
-                whole += THREAT_COST * threat(state.member[c], near, x, z, room, horizon, scratch)
-            if whole < least:
-                least = whole
-                best = angle
-                pace = share
+        whole, share = cost, 1.0
+        if near > 0:
+            whole, share = price_paces(
+                c, near, direction, cost, least, room, state, command, tables, scratch
+            )
+        if whole < least:
+            least = whole
+            best = angle
+            pace = share
         if least <= 0.0:
             break
     return best, pace

@@ -56,6 +56,8 @@ def move_body(
     )
     note_yielding(c, dt, state.pace[c], state)
     if state.halted[c] > 0.0:
+        # It does not turn about for a way out either.
+        state.detour[c] = 0.0
         state.pace[c] = 0.0
     pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
     x, z = feedback(c, state, tables, settings)
