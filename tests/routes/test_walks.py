@@ -139,7 +139,7 @@ def test_where_no_step_is_safe_it_waits_with_still_legs_and_says_so() -> None:
     island = Obstacle.box((2.4 * leg, 3 * leg, 2.4 * leg), (0, 1.5 * leg, 0))
     world = World(Environment(obstacles=[island]), threads=1)
     herd = world.add(load_rig("spider"), position=[0.0, 0.0], speed=0.5)
-    recording = record_walk(world, 15.0, FPS)[0]
+    recording = record_walk(world, 17.0, FPS)[0]
     assert herd.state.activity[0] == Activity.WAITING
     assert np.all(herd.state.foot_support[0] == 0)
     feet = recording.foot_position[-60:]
@@ -147,5 +147,5 @@ def test_where_no_step_is_safe_it_waits_with_still_legs_and_says_so() -> None:
     figures = measure(recording, world.environment.table)
     assert figures["ended"] == "waiting"
     assert figures["waiting_s"] > 1.0
-    assert figures["waiting_until_s"][-1] == pytest.approx(15.0)
+    assert figures["waiting_until_s"][-1] == pytest.approx(17.0)
     assert any("waited" in remark for remark in remarks(figures))

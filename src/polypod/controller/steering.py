@@ -15,9 +15,11 @@ from polypod.routes.aim import next_aim, way_left
 PREDICTION_STEPS = 8
 # Closer than this to the last waypoint the heading is kept: its direction is noise.
 HEADING_RADIUS = 0.3
-# Who is so near to where it stops, leg lengths, is there; who stands starts again only for so much:
-# feet that cannot stand where they would push the body for ever.
-STOPPED = 0.002
+# Who is so near to the last place of its path is there, leg lengths, or to where its way ends before
+# that; who stands starts again only for so much. Feet that cannot stand where they would push the
+# body away for ever.
+STOPPED = 1e-4
+STOPPED_BEFORE = 2e-3
 START_AGAIN = 0.1
 # A body that its legs hold back slows down so many times as fast as it accelerates.
 SLOWING = 3.0
@@ -95,7 +97,9 @@ def steer(
         # Who goes round something does not head for the place, and is not there yet.
         if pose.detour != 0.0 and away > tables.leg_length:
             left = away
-        nearest = START_AGAIN if pose.speed <= 0.0 else STOPPED
+        nearest = STOPPED_BEFORE if aim.corner < aim.corners else STOPPED
+        if pose.speed <= 0.0:
+            nearest = START_AGAIN
         if aim.stops and left <= nearest * tables.leg_length:
             left = 0.0
         if not aim.stops:
