@@ -15,9 +15,9 @@ from polypod.routes.aim import next_aim, way_left
 PREDICTION_STEPS = 8
 # Closer than this to the last waypoint the heading is kept: its direction is noise.
 HEADING_RADIUS = 0.3
-# Who is so near to the last place of its path is there, leg lengths, or to where its way ends before
-# that; who stands starts again only for so much. Feet that cannot stand where they would push the
-# body away for ever.
+# Who is so near to the last place of its path is there, leg lengths, or to where its way ends
+# before that; who stands starts again only for so much. Feet that cannot stand where they would
+# push the body away for ever.
 STOPPED = 1e-4
 STOPPED_BEFORE = 2e-3
 START_AGAIN = 0.1
