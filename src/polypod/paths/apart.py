@@ -36,9 +36,9 @@ NEAR_SPRAWLING = 0.15
 # Room between two legs that is as good as any, leg lengths.
 ROOM = 0.03
 # What a pair of footprint and path is worth where two legs would touch, and where they would be
-# inside each other by `ROOM` or more.
+# inside each other by `ROOM`. Deeper it is worth ever less: legs that are crossed come out again.
 TOUCHING = 0.6
-INSIDE = 0.1
+INSIDE = 0.15
 
 
 class LegsAhead(NamedTuple):
@@ -183,9 +183,14 @@ def room_at(
 @kernel
 def factor_of(room: float, most: float) -> float:
     """Return what a step is worth for the room between the legs; `most` is as good as any, m."""
-    if room >= most:
+    share = room / most
+    if share >= 1.0:
         return 1.0
-    return max(TOUCHING + (1.0 - TOUCHING) * room / most, INSIDE)
+    if share >= 0.0:
+        return TOUCHING + (1.0 - TOUCHING) * share
+    if share >= -1.0:
+        return TOUCHING + (TOUCHING - INSIDE) * share
+    return -INSIDE / share
 
 
 @kernel
