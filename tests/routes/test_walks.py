@@ -13,6 +13,7 @@ from polypod.environment.obstacles import Obstacle
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 from polypod.recording import record_walk
+from polypod.report.arrays import runs_of
 from polypod.report.figures import measure
 from polypod.report.verdict import remarks
 from polypod.world import World
@@ -142,8 +143,15 @@ def test_where_no_step_is_safe_it_waits_with_still_legs_and_says_so() -> None:
     recording = record_walk(world, 17.0, FPS)[0]
     assert herd.state.activity[0] == Activity.WAITING
     assert np.all(herd.state.foot_support[0] == 0)
-    feet = recording.foot_position[-60:]
-    assert np.array_equal(feet, np.broadcast_to(feet[0], feet.shape))
+    first, last = max(
+        runs_of(recording.activity == Activity.WAITING), key=lambda run: run[1] - run[0]
+    )
+    assert last - first > 2.0 * FPS
+    still = slice(first, last)
+    assert recording.foot_stance[still].all()
+    assert np.ptp(recording.foot_target[still], axis=0).max() == 0.0
+    assert np.ptp(recording.foot_position[still], axis=0).max() < 1e-6 * leg
+    assert np.ptp(recording.body_position[still][:, [0, 2]], axis=0).max() < 0.01 * leg
     figures = measure(recording, world.environment.table)
     assert figures["ended"] == "waiting"
     assert figures["waiting_s"] > 1.0
