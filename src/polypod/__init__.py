@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polypod.cache import use_kernel_cache
 
 if TYPE_CHECKING:
+    from polypod.activity import Activity
     from polypod.config import Settings
     from polypod.environment.environment import Environment
     from polypod.environment.obstacles import Obstacle
@@ -35,6 +36,7 @@ __version__ = "0.1.0"
 use_kernel_cache()
 
 _HOMES = {
+    "Activity": "polypod.activity",
     "Environment": "polypod.environment.environment",
     "Gait": "polypod.gait.pattern",
     "Obstacle": "polypod.environment.obstacles",
@@ -57,6 +59,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "Activity",
     "Environment",
     "Gait",
     "Obstacle",

@@ -10,6 +10,7 @@ Tuning, by symptom:
 * the creature leans into slopes too much, or its legs do: change `tilt_share`, `upright_lean`;
 * turns look like a turret's: lower `turn_rate`; it misses waypoints: raise it;
 * feet hesitate in front of obstacles: raise `wider_search` (costs planning time);
+* creatures of a crowd crowd too much, or too little: raise or lower `personal_space`;
 * swing feet twitch when the heading changes: raise `replan_distance`;
 * feet scrape or step too high: `step_height`; they start and stop too gently: `swing_profile`;
 * a foot's toes or heel hang in the air on steep ground: raise `foot_tilt`, then `ankle_range`;
@@ -91,6 +92,9 @@ class Settings:
 
     spacing_rate: float = 0.5
     """How fast feet spacing moves to a new target, leg lengths a second (P1 Fig 6)."""
+
+    personal_space: float = 1.0
+    """Share of the room for its feet that a creature keeps from others; 0: they do not matter."""
 
     foot_align: float = 1.0
     """Share of the ground's tilt that a foot joint takes on in stance."""

@@ -12,12 +12,15 @@ from typing import Any
 from polypod.body.pose import update_tilt, wished_height
 from polypod.body.support import body_rotation, feet_plane
 from polypod.compute import kernel
+from polypod.controller.activity import note_activity
+from polypod.controller.headway import note_headway
 from polypod.controller.lift import any_off_place
+from polypod.controller.move import move_body
 from polypod.controller.moving import any_threatened, carry_feet
 from polypod.controller.plan import plan_feet
 from polypod.controller.reach import note_reaching, reach_feet
 from polypod.controller.settle import advance_swings, settle_body
-from polypod.controller.steering import load_pose, move_body, note_pose, store_pose
+from polypod.controller.steering import load_pose, note_pose, store_pose
 from polypod.controller.swing import shift_spacing
 from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count
@@ -25,6 +28,7 @@ from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
 from polypod.math.vec3 import load_vec3
 from polypod.morphology.types import FloatArray
+from polypod.routes.way import keep_ways
 
 # Longer steps than this are no frames that anybody watches.
 LONGEST_FRAME = 0.05
@@ -70,7 +74,7 @@ def drive_creatures(
         state.turn[c] = advance_gait(
             c, seconds, restless, state, command, tables, settings, scratch
         )
-        store_pose(c, move_body(c, seconds, state, command, tables, settings, env), state)
+        store_pose(c, move_body(c, seconds, state, command, tables, settings, env, scratch), state)
 
 
 @kernel
@@ -111,6 +115,8 @@ def settle_creatures(
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
         reach_feet(c, seconds, state, command, tables)
+        note_headway(c, seconds, state, command, tables)
+        note_activity(c, state, command, tables)
 
 
 @kernel
@@ -156,6 +162,8 @@ def step_creatures(
         herd.kernel_state, herd.kernel_command, herd.kernel_tables, herd.kernel_settings,
         environment, herd.kernel_plan, herd.scratch(worker),
     )  # fmt: skip
+    if herd.follows:
+        keep_ways(first, last, dt, *arguments)
     for start in range(first, last, BLOCK):
         end = min(start + BLOCK, last)
         for step in range(begin_frame(start, end, dt, herd.kernel_state)):

@@ -10,14 +10,18 @@ import numpy as np
 from polypod.body.hull import make_hull_scratch
 from polypod.command import Command
 from polypod.config import Settings
+from polypod.crowd.avoid import HEEDED
+from polypod.crowd.company import Company, make_company
+from polypod.crowd.legs import COMPANY_SEGMENTS
 from polypod.footprints.plan import PlanScratch, make_plan_scratch
 from polypod.footprints.settings import PlanSettings
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
-from polypod.morphology.types import BoolArray, FloatArray, Morphology
+from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
+from polypod.routes.state import RouteScratch, make_route_scratch
 from polypod.state import HerdTables, JointTable, make_command, make_state
 
 WAYPOINT_ROOM = 256
@@ -53,6 +57,10 @@ class Scratch(NamedTuple):
     extent: FloatArray  # [K]
     leg_rotation: FloatArray  # [M, 4]
     leg_point: FloatArray  # [M + 1, 3]
+    route: RouteScratch
+    company: Company  # all creatures of the world, as all threads read them
+    neighbour: IntArray  # [HEEDED] rows of the company
+    neighbour_gap: FloatArray  # [HEEDED] m
 
 
 class Pose(NamedTuple):
@@ -73,9 +81,10 @@ def make_tables(morphology: Morphology) -> HerdTables:
     upright = bool(np.mean(legs.upright) > 0.5)
     track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
+    ik = build_ik_table(legs)
     return HerdTables(
         legs=legs,
-        ik=build_ik_table(legs),
+        ik=ik,
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
@@ -86,6 +95,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         # Two feet do not tell the slope of the ground ahead, nor what is level on it.
         level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,
         upright=upright,
+        stance_travel=float(ik.stance_travel.min()),
     )
 
 
@@ -133,6 +143,13 @@ class Herd:
         self.settings = settings
         self.kernel_plan = by_reference(self.plan_settings)
         self._scratch: list[Scratch] = []
+        self._company = make_company([])
+
+    def join(self, company: Company, first: int) -> None:
+        """Take part in a world's company, its creatures in rows from `first` on."""
+        self.state.member[:] = np.arange(first, first + self.count)
+        self._company = company
+        self._scratch.clear()
 
     @property
     def settings(self) -> Settings:
@@ -153,6 +170,11 @@ class Herd:
         return int(self.state.heading.shape[0])
 
     @property
+    def follows(self) -> bool:
+        """Whether any creature follows waypoints."""
+        return bool(self.command.arrays.waypoint_count.any())
+
+    @property
     def pose(self) -> Pose:
         """Where every joint is, after the last step."""
         return Pose(self.state.joint_position, self.state.joint_rotation)
@@ -167,6 +189,7 @@ class Herd:
                 plan=make_plan_scratch(
                     self.plan_settings,
                     make_legs_ahead(self.tables.ik, legs.section_radius, legs.foot_joint),
+                    COMPANY_SEGMENTS,
                 ),
                 path=PathRow(*(array[0, 0] for array in path)),
                 hull=make_hull_scratch(feet),
@@ -181,6 +204,10 @@ class Herd:
                 extent=np.zeros(feet),
                 leg_rotation=np.zeros((most, 4)),
                 leg_point=np.zeros((most + 1, 3)),
+                route=make_route_scratch(),
+                company=self._company,
+                neighbour=np.zeros(HEEDED, np.int64),
+                neighbour_gap=np.zeros(HEEDED),
             )
             self._scratch.append(by_reference(scratch))
         return self._scratch[worker]

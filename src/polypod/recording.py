@@ -28,6 +28,7 @@ def add_frame(recorder: Recorder, world: World, herd: Herd, creature: int) -> No
         np.where(standing, state.foot_support[creature], -1),
         environment.places(),
         environment.rotations,
+        int(state.activity[creature]),
     )
 
 

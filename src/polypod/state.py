@@ -11,8 +11,10 @@ from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
+from polypod.activity import STANDING
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
 from polypod.paths.curve import PathRow, path_store
+from polypod.routes.state import RouteState, make_route_state
 
 
 class JointTable(NamedTuple):
@@ -35,6 +37,7 @@ class HerdTables(NamedTuple):
     pendulum_time: float  # sqrt(leg length / g), s
     upright: bool  # most legs stand below their hips
     track: float  # m, half the width of the way that the feet take
+    stance_travel: float  # m, the least of all legs': how far a body goes over a standing foot
     level_weight: float  # how much a foot prefers to land where the others stand
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
 
@@ -49,11 +52,21 @@ class HerdState(NamedTuple):
     speed: FloatArray  # [C] m/s along the direction of travel
     waypoint: IntArray  # [C] index of the waypoint being approached
     travelled: FloatArray  # [C] m, along the way asked for
-    steered: FloatArray  # [C, 7] PlanPose: where steering wants the body at the end of the step
+    route: RouteState  # the way to that waypoint
+    steered: FloatArray  # [C, 9] PlanPose: where steering wants the body at the end of the step
     needle: FloatArray  # [C] phase of the gait in [0, 1)
     turn: FloatArray  # [C] cycles by which the needle turned in this step
     cycle_rate: FloatArray  # [C] cycles a second
     detour: FloatArray  # [C] rad from the heading asked for, to pass what is forbidden
+    pace: FloatArray  # [C] share of the speed asked for that others leave it, 0 to 1
+    yielded: FloatArray  # [C] s for which it has waited for others
+    crowded: BoolArray  # [C] others are so near that legs could meet
+    member: IntArray  # [C] its row in the world's company
+    asked: FloatArray  # [C, 4] direction (rad), speed and waypoint (x, z) when headway began
+    judged: FloatArray  # [C, 3] x and z from which headway is judged, and the s since
+    halted: FloatArray  # [C] s for which it still stands, for it made no headway
+    halts: IntArray  # [C] how often in a row
+    activity: IntArray  # [C] polypod.activity.Activity
     hurry: FloatArray  # [C] by how much quicker it steps because legs were at their limits
     swing_start: FloatArray  # [C, K] disks in use
     swing_extent: FloatArray  # [C, K]
@@ -168,6 +181,13 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "least_down",
             "turn",
             "steps",
+            "pace",
+            "yielded",
+            "crowded",
+            "member",
+            "activity",
+            "halted",
+            "halts",
         ),
         (c,),
     )
@@ -227,20 +247,26 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         "roll_start": (c, k, 4),
         "roll_plan": (c, k, 3),
         "spacing": (c, k, 2),
-        "steered": (c, 7),
+        "steered": (c, 9),
         "slope": (c, 2),
+        "asked": (c, 4),
+        "judged": (c, 3),
         "tilt": (c, 2, 3),
         "lift": (c, 3),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),
     }
-    state: HerdState = _allocate(HerdState, shapes, path=path_store(c, k))
+    state: HerdState = _allocate(
+        HerdState, shapes, path=path_store(c, k), route=make_route_state(c)
+    )
     for turn in (state.rotation, state.joint_rotation, state.foot_rotation):
         turn[..., 3] = 1.0
     state.foot_rotation_start[..., 3] = 1.0
     state.foot_rotation_target[..., 3] = 1.0
     state.foot_support[:] = -1
     state.landing_support[:] = -1
+    state.pace[:] = 1.0
+    state.activity[:] = STANDING
     return state
 
 

@@ -13,6 +13,7 @@ from polypod.command import FARTHEST, numbers_of
 from polypod.compute import kernel, over_creatures, thread_count
 from polypod.config import Settings
 from polypod.controller.spawn import spawn
+from polypod.crowd.company import list_company, make_company, note_herd
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain
@@ -25,6 +26,7 @@ from polypod.gait.pattern import Gait
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
 from polypod.morphology.types import Morphology
+from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
 
@@ -66,6 +68,7 @@ class World:
         self.environment = place
         self.kernel_environment = place.kernel_table
         self.herds: list[Herd] = []
+        self._meet()
         self.time = 0.0
         self.threads = thread_count() if threads is None else max(1, int(threads))
 
@@ -124,7 +127,31 @@ class World:
                     "place within reach; choose a flatter or freer position"
                 )
         self.herds.append(herd)
+        self._meet()
         return herd
+
+    def _meet(self) -> None:
+        """Make the creatures of all herds known to each other."""
+        counts = [herd.count for herd in self.herds]
+        feet = [len(herd.morphology.foot_name) for herd in self.herds]
+        every = [k for k, count in zip(feet, counts, strict=True) for _ in range(count)]
+        self._company = make_company(every)
+        self._kernel_company = by_reference(self._company)
+        first = 0
+        for herd in self.herds:
+            herd.join(self._company, first)
+            first += herd.count
+
+    def look_round(self) -> None:
+        """Let each creature see where the others are now; `step` does it as a frame begins."""
+        self._company.most[:] = 0.0
+        self._company.size[0] = 0
+        if sum(herd.count for herd in self.herds) < 2:
+            return
+        company = self._kernel_company
+        for herd in self.herds:
+            note_herd(herd.kernel_state, herd.kernel_command, herd.kernel_tables, company)
+        list_company(company)
 
     def _spawn(self, herd: Herd, c: int) -> bool:
         scratch = herd.scratch(0)
@@ -154,6 +181,7 @@ class World:
         if not 0.0 < dt <= LONGEST_STEP:
             raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
         self.environment.advance(self.time + dt)
+        self.look_round()
         for herd in self.herds:
             for worker in range(self.threads):
                 herd.scratch(worker)

@@ -212,7 +212,7 @@ def walk(seconds=4.0, fps=30, bob=0.004, obstacle_count=0, edit=None) -> Recordi
         position, rotation = pose_of(body, centre, soles)
         recorder.add(
             time, centre, [0, 0, 0, 1], position, rotation, soles, targets, stance, support,
-            np.zeros((obstacle_count, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (obstacle_count, 1)),
+            np.zeros((obstacle_count, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (obstacle_count, 1)), 0,
         )  # fmt: skip
     return recorder.finish()
 

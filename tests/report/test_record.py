@@ -31,6 +31,7 @@ SHAPES = {
     "bone": ("<i8", (B, 2)),
     "obstacle_position": ("<f8", (F, O, 3)),
     "obstacle_rotation": ("<f8", (F, O, 4)),
+    "activity": ("<i8", (F,)),
 }
 
 

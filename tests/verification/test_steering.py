@@ -12,7 +12,7 @@ from polypod.controller.steering import CYCLE, PREDICTION_STEPS, PlanPose, predi
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 
-REST = PlanPose(*[0.0] * len(PlanPose._fields))
+REST = PlanPose(*[0.0] * len(PlanPose._fields))._replace(pace=1.0)
 
 
 @pytest.fixture(scope="module")
@@ -29,12 +29,13 @@ def _at_rest(herd: Herd) -> None:
 
 
 def step(herd: Herd, pose: PlanPose, dt: float) -> PlanPose:
-    return steer(pose, 0, herd.kernel_command, herd.kernel_tables, herd.kernel_settings, dt)
+    tables, settings = herd.kernel_tables, herd.kernel_settings
+    return steer(pose, 0, herd.kernel_state, herd.kernel_command, tables, settings, dt)
 
 
 def ahead(herd: Herd, pose: PlanPose, seconds: float) -> PlanPose:
     tables, settings = herd.kernel_tables, herd.kernel_settings
-    return predict(pose, seconds, 0, herd.kernel_command, tables, settings)
+    return predict(pose, seconds, 0, herd.kernel_state, herd.kernel_command, tables, settings)
 
 
 def acceleration(herd: Herd) -> float:
@@ -70,7 +71,7 @@ def test_it_stops_at_the_last_waypoint_in_the_distance_of_even_braking(herd: Her
             assert (before.speed - pose.speed) / dt == pytest.approx(0.5 * gain, rel=0.05)
         assert pose.z <= end + 1e-5
     assert end - begins == pytest.approx(speed**2 / gain, rel=0.01)
-    assert pose.z == pytest.approx(end, abs=1e-5)
+    assert pose.z == pytest.approx(end, abs=1e-4)
     assert pose.speed == pytest.approx(0.0, abs=1e-6)
 
 

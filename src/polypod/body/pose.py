@@ -133,7 +133,10 @@ def highest_soon(
         share = SOON * i / SOON_SAMPLES
         x = pose.x + (there.x - pose.x) * share
         z = pose.z + (there.z - pose.z) * share
-        later = PlanPose(x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.detour)
+        later = PlanPose(
+            x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner, pose.detour,
+            pose.pace,
+        )  # fmt: skip
         rise = rise_along(pose, x, z, plane)
         for k in range(state.swinging.shape[1]):
             until = wrap_phase(state.swing_start[c, k] - state.needle[c])
@@ -214,7 +217,7 @@ def wished_height(
     extra = max(0.0, least - base)
     extra = min(extra, highest(c, base, pose, turn, state, command, tables))
     if state.cycle_rate[c] > 0.0:
-        there = predict(pose, 0.5 / state.cycle_rate[c], c, command, tables, settings)
+        there = predict(pose, 0.5 / state.cycle_rate[c], c, state, command, tables, settings)
         soon = highest_soon(c, base, pose, there, turn, plane, state, command, tables)
         landing = highest_ahead(
             c, base, pose, there, turn, plane, state, command, tables, settings, env

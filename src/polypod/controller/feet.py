@@ -12,6 +12,7 @@ from polypod.controller.errand import Errand
 from polypod.controller.others import gather_other_legs, look_ahead
 from polypod.controller.rest import body_height_at, hip_at, level_height, rest_offset
 from polypod.controller.steering import PlanPose, predict
+from polypod.crowd.legs import add_company
 from polypod.environment.placing import own_point
 from polypod.environment.table import surface_at
 from polypod.footprints.plan import plan_step
@@ -45,7 +46,7 @@ def preferred_footprint(
     the pose at touchdown plus half of the stance's travel along the predicted arc.
     """
     stance = stance_seconds(c, k, state)
-    middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
+    middle = predict(pose, touchdown + 0.5 * stance, c, state, command, tables, settings)
     offset = rest_offset(c, k, middle.heading, state, tables, settings)
     return Vec3(middle.x + offset.x, state.foot[c, k, 1], middle.z + offset.z)
 
@@ -65,9 +66,9 @@ def plan_foot(
     preferred = errand.preferred
     touchdown = errand.seconds
     stance = stance_seconds(c, k, state)
-    landing = predict(pose, touchdown, c, command, tables, settings)
-    middle = predict(pose, touchdown + 0.5 * stance, c, command, tables, settings)
-    leaving = predict(pose, touchdown + stance, c, command, tables, settings)
+    landing = predict(pose, touchdown, c, state, command, tables, settings)
+    middle = predict(pose, touchdown + 0.5 * stance, c, state, command, tables, settings)
+    leaving = predict(pose, touchdown + stance, c, state, command, tables, settings)
     start = load_vec3(state.foot[c, k])
     height, _ = surface_at(env, preferred.x, preferred.z, touchdown)
     place = Vec3(preferred.x, height, preferred.z)
@@ -84,6 +85,10 @@ def plan_foot(
     look_ahead(c, dt, pose, errand, stance, state, command, tables, settings, env, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0
+    if state.crowded[c]:
+        others = add_company(
+            c, k, others, start, preferred, touchdown, errand.radius, state, tables, scratch
+        )
     found = False
     for attempt in range(len(STEP_SHARES)):
         request = StepRequest(

@@ -42,7 +42,12 @@ def is_moving(c: int, state: Any, tables: Any) -> bool:
 
 @kernel
 def off_place(c: int, k: int, state: Any, tables: Any, settings: Any) -> bool:
-    """Return whether a foot stands too far from its rest place under a standing body."""
+    """Return whether a foot stands too far from its rest place under a standing body.
+
+    Who stands because it makes no headway keeps its feet where they are.
+    """
+    if state.halted[c] > 0.0:
+        return False
     offset = rest_offset(c, k, state.heading[c], state, tables, settings)
     # Against what it asked for: what it could not have then is no reason to step for ever.
     gap_x = state.position[c, 0] + offset.x - state.foot_preferred[c, k, 0]

@@ -105,7 +105,7 @@ def look_ahead(
     for moment in range(MOMENTS.shape[0]):
         share = MOMENTS[moment]
         seconds = min(share, 1.0) * errand.seconds + max(share - 1.0, 0.0) * stance
-        then = predict(pose, max(seconds - dt, 0.0), c, command, tables, settings)
+        then = predict(pose, max(seconds - dt, 0.0), c, state, command, tables, settings)
         place = Vec3(then.x, body_height_at(c, then.x, then.z, state), then.z)
         store_vec3(ahead.position[moment], place)
         turn = body_rotation(then.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])

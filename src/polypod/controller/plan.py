@@ -27,6 +27,7 @@ from polypod.controller.swing import (
     way_on,
     wishes_new_plan,
 )
+from polypod.crowd.legs import is_taken
 from polypod.gait.needle import lift_phase, next_foot_to_lift
 
 
@@ -44,6 +45,7 @@ def plan_feet(
         if not state.swinging[c, k] or state.reaching[c, k]:
             continue
         blocked = env.mover_count > 0 and way_blocked(c, k, state, tables, env)
+        blocked = blocked or (state.crowded[c] and is_taken(c, k, state, tables, scratch))
         if state.swing_progress[c, k] > settings.replan_until and not blocked:
             continue
         left = swing_time_left(c, k, state)

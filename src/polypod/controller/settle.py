@@ -10,6 +10,7 @@ from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
+from polypod.crowd.avoid import apart_from, list_neighbours
 from polypod.environment.movers import clear_of_movers
 from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
@@ -166,10 +167,17 @@ def settle_body(
     wish_feet(c, dt, state, command, tables, env, scratch)
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
     heading_before = state.heading[c]
+    turning = wrapped(pose.heading - heading_before)
+    near = list_neighbours(c, tables.leg_length, state, scratch) if state.crowded[c] else 0
     for share in ADVANCES:
         position = mix(before, wished, share)
         turned = slerp(turn_before, turn, share)
-        fits = feet_fit(c, position, turned, state, tables, scratch)
+        heading = heading_before + share * turning
+        apart = True
+        if near > 0 and share > 0.0:
+            x, z, apart = apart_from(c, near, position.x, position.z, heading, state, scratch)
+            position = Vec3(x, position.y, z)
+        fits = apart and feet_fit(c, position, turned, state, tables, scratch)
         if share == 0.0 and not fits and env.mover_count > 0:
             # What some feet stand on has carried the body away from the others.
             position = body_within_reach(c, state, tables, scratch, position, turned)
@@ -178,9 +186,7 @@ def settle_body(
             state.held[c] = share
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
-            state.heading[c] = wrapped(
-                heading_before + share * wrapped(pose.heading - heading_before)
-            )
+            state.heading[c] = wrapped(heading)
             # What smooths the height goes on from where the body is, or it would snap back.
             if abs(position.y - asked) > TOLERANCE * tables.leg_length:
                 state.lift[c, 0] += position.y - asked

@@ -60,14 +60,17 @@ class PlanScratch(NamedTuple):
     tally: NDArray[np.int64]  # [4] what the last request took, for display and measurements
 
 
-def make_plan_scratch(settings: PlanSettings, ahead: LegsAhead) -> PlanScratch:
+def make_plan_scratch(
+    settings: PlanSettings, ahead: LegsAhead, company_segments: int = 0
+) -> PlanScratch:
     """Return the memory for one thread.
 
     Args:
         settings: with the largest candidate and slice limits that will be asked for.
         ahead: the legs.
+        company_segments: the most segments of other creatures.
     """
-    n, other_segments = MAP_CELLS, len(ahead.leg)
+    n, other_segments = MAP_CELLS, len(ahead.leg) + company_segments
     places = settings.candidate_limit + 1 + SHORTER_STEPS
     return PlanScratch(
         other_a=np.zeros((other_segments, 3)),

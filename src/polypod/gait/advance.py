@@ -101,7 +101,7 @@ def advance_gait(
     The tempo is that of the speed now or soon: the first step of a walk is as quick as the second.
     """
     now = plan_pose(c, state)
-    soon = predict(now, SOON * tables.pendulum_time, c, command, tables, settings)
+    soon = predict(now, SOON * tables.pendulum_time, c, state, command, tables, settings)
     speed = max(
         fastest_foot_speed(c, now, state, tables), fastest_foot_speed(c, soon, state, tables)
     )

@@ -262,6 +262,7 @@ def part_ms(frames: int) -> list[tuple[str, float]]:
         world = started(crowd(100, 1))
         seconds = np.zeros(len(PARTS))
         for _ in range(frames):
+            world.look_round()
             for herd in world.herds:
                 step_creatures(herd, world.kernel_environment, 1.0 / FPS, 0, herd.count, 0, seconds)
         best = np.minimum(best, seconds)

@@ -31,7 +31,8 @@ def run(given: argparse.Namespace) -> int:
         crates = scatter(ground, 3, (-1.0, 0.5, 1.0, 2.0), ((0.1, 0.05, 0.1), (0.2, 0.1, 0.2)), 0)
         environment = Environment(ground, crates)
         world = World(environment, threads=1)
-        world.add(load_rig(DEFAULT_RIG), speed=0.5)
+        herd = world.add(load_rig(DEFAULT_RIG), 2, speed=0.5)
+        herd.command.set_path([[0.0, 2.0]], 0)
         for recording in record_walk(world, 0.5, 30.0):
             measure(recording, environment.table)
         top_speed(1.0, 0.5, 1.0)

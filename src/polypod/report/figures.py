@@ -23,6 +23,7 @@ from polypod.report.stances import stance_figures
 from polypod.report.strides import stride_figures
 from polypod.report.swings import forbidden_figures, swing_figures
 from polypod.report.trunk import trunk_figures, way_figures
+from polypod.report.waits import wait_figures
 
 
 def measure(
@@ -55,6 +56,7 @@ def measure(
         "seconds": seconds,
         "leg_length_m": float(recording.morphology.legs.length.mean()),
         **way_figures(recording, commanded_distance_m),
+        **wait_figures(recording),
         **stance_figures(recording, ground),
         **contact_figures(recording, ground),
         **swing_figures(recording, ground),

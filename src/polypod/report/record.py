@@ -50,6 +50,7 @@ class Recording:
     foot_support: IntArray  # [F, K] what it stands on: -1 the ground, else the obstacle's index
     obstacle_position: FloatArray  # [F, O, 3] m
     obstacle_rotation: FloatArray  # [F, O, 4]
+    activity: IntArray  # [F] polypod.activity.Activity
 
     def __post_init__(self) -> None:
         """Raise ValueError where an array has not the shape that its neighbours imply."""
@@ -68,6 +69,7 @@ class Recording:
             "foot_support": (frames, feet),
             "obstacle_position": (frames, obstacles, 3),
             "obstacle_rotation": (frames, obstacles, 4),
+            "activity": (frames,),
         }
         for name, shape in expected.items():
             if getattr(self, name).shape != shape:
@@ -96,6 +98,7 @@ class Recorder:
         foot_support: ArrayLike,
         obstacle_position: ArrayLike,
         obstacle_rotation: ArrayLike,
+        activity: int,
     ) -> None:
         """Keep a copy of one frame; shapes as in `Recording` without the first axis."""
         obstacles = self.obstacle_count
@@ -112,6 +115,7 @@ class Recorder:
                 np.array(foot_support, np.int64),
                 np.array(obstacle_position, np.float64).reshape(obstacles, 3),
                 np.array(obstacle_rotation, np.float64).reshape(obstacles, 4),
+                np.array(activity, np.int64),
             )
         )
 
@@ -148,6 +152,7 @@ class Record(NamedTuple):
     bone: IntArray  # [B, 2] rows of the joint table whose distance is constant
     obstacle_position: FloatArray  # [F, O, 3] world, m
     obstacle_rotation: FloatArray  # [F, O, 4]
+    activity: IntArray  # [F] 0 walking, 1 standing, 2 arrived, 3 waiting, 4 blocked
 
 
 def bones(morphology: Morphology) -> IntArray:
@@ -195,6 +200,7 @@ def record_of(recording: Recording) -> Record:
         bone=bones(morphology),
         obstacle_position=_floats(recording.obstacle_position),
         obstacle_rotation=_floats(recording.obstacle_rotation),
+        activity=np.ascontiguousarray(recording.activity, np.int64),
     )
 
 
@@ -260,6 +266,7 @@ def _check(record: Record, source: Path) -> None:
         "bone": ("i", (_rows(record.bone), 2)),
         "obstacle_position": ("f", (frames, obstacles, 3)),
         "obstacle_rotation": ("f", (frames, obstacles, 4)),
+        "activity": ("i", (frames,)),
     }
     for name, (kind, shape) in shapes.items():
         values = getattr(record, name)

@@ -46,6 +46,8 @@ LIMITS = (
 
 # What a good walk keeps: worth a look where it does not.
 YARDSTICKS = (
+    _most("blocked_s", 0.0, "no way led to its goal, it stood before it for {} s"),
+    _most("waiting_s", 1.0, "it waited {} s for a place to step or for others"),
     _most("leg_stretch", 0.97, "a leg is stretched to {} of its length"),
     Limit("body_clearance_of_leg", 0.0, INFINITE, "the belly clears the ground by {} leg lengths"),
     Limit("body_force_least_g", 0.0, INFINITE, "the body is pushed by {} g"),

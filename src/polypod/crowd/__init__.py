@@ -1,0 +1,1 @@
+"""Creatures among others."""

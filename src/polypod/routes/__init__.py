@@ -1,0 +1,1 @@
+"""A way at body scale round what a creature cannot pass."""
