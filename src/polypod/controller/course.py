@@ -10,7 +10,7 @@ from polypod.controller.steering import plan_pose
 from polypod.crowd.avoid import FORESIGHT, PATIENCE, threat
 from polypod.environment.table import is_forbidden, surface
 from polypod.routes.aim import aim_at
-from polypod.routes.passable import highest_step
+from polypod.routes.passable import SQUEEZE, highest_step
 
 # What lies ahead is looked at so many leg lengths far, in so many places, along a fan of courses;
 # a course costs by what blocks it (2 for all of it), by its angle and by how new it is, per rad.
@@ -43,19 +43,29 @@ def way_free(x: float, z: float, course: float, margin: float, reach: float, env
 
 @kernel
 def way_low(
-    x: float, z: float, course: float, level: float, climb: float, reach: float, env: Any
-) -> float:
+    x: float, z: float, course: float, half: float, level: float, climb: float, reach: float,
+    env: Any,
+) -> float:  # fmt: skip
     """Return the share of a straight way of `reach` m on which nothing is too high to step onto.
 
-    From ground of height `level`, up or down by `climb` m at each sample.
+    From ground of height `level`, up by at most `climb` m at each sample; the way is looked at
+    along both of its sides, `half` m from the middle.
     """
-    for i in range(1, LOOK_SAMPLES + 1):
-        along = reach * i / LOOK_SAMPLES
-        height, _ = surface(env, x + math.sin(course) * along, z + math.cos(course) * along)
-        if height > level + climb:
-            return (i - 1.0) / LOOK_SAMPLES
-        level = height
-    return 1.0
+    share = 1.0
+    for side in range(2):
+        out = half if side == 0 else -half
+        from_x = x + math.cos(course) * out
+        from_z = z - math.sin(course) * out
+        below = level
+        for i in range(1, LOOK_SAMPLES + 1):
+            along = reach * i / LOOK_SAMPLES
+            place_x = from_x + math.sin(course) * along
+            height, _ = surface(env, place_x, from_z + math.cos(course) * along)
+            if height > below + climb:
+                share = min(share, (i - 1.0) / LOOK_SAMPLES)
+                break
+            below = height
+    return share
 
 
 @kernel
@@ -121,7 +131,8 @@ def choose_course(
         direction = course + command.travel[c] + angle
         free = way_free(pose.x, pose.z, direction, margin, reach, env)
         if near > 0 and least < math.inf:
-            low = way_low(pose.x, pose.z, direction, level, climb, reach, env)
+            half = SQUEEZE * tables.track
+            low = way_low(pose.x, pose.z, direction, half, level, climb, reach, env)
             free = min(free, low)
         blocked = 1.0 - free
         change = abs(angle - state.detour[c])
