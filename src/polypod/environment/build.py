@@ -77,6 +77,7 @@ def build_table(
         turn_in=np.full(len(obstacles), np.inf),
         next_velocity=np.zeros((len(obstacles), 3)),
         step=np.zeros((len(obstacles), 3)),
+        can_turn=movable or any(o.turn_rate != 0.0 for o in obstacles),
         yaw=np.zeros(len(obstacles)),
         yaw_rate=np.zeros(len(obstacles)),
         yaw_step=np.zeros(len(obstacles)),

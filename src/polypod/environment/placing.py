@@ -31,6 +31,8 @@ def shift_of(env: EnvironmentTable, i: int, ahead: float) -> Vec3:
 @kernel
 def yaw_of(env: EnvironmentTable, i: int, ahead: float) -> float:
     """Return by how much obstacle `i` will be turned against its rows, `ahead` s from now; rad."""
+    if not env.can_turn:
+        return 0.0
     return env.yaw[i] + env.yaw_rate[i] * ahead
 
 

@@ -67,6 +67,7 @@ class EnvironmentTable(NamedTuple):
     turn_in: FloatArray  # [O] s until it takes another velocity, infinite where it keeps this one
     next_velocity: FloatArray  # [O, 3] m/s, from then on
     step: FloatArray  # [O, 3] by how much it moved in this frame
+    can_turn: bool  # whether any of them ever turns: most places need not ask
     yaw: FloatArray  # [O] rad by which it is turned, about +Y from +Z toward +X
     yaw_rate: FloatArray  # [O] rad/s
     yaw_step: FloatArray  # [O] by how much it turned in this frame
