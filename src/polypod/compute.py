@@ -18,6 +18,8 @@ from numba import types
 from numba.core import config
 from numba.extending import models, register_model, typeof_impl
 
+from polypod.inner import InnerCache, InnerCompiler
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 # Numba's own type hints do not know all that is used of it.
@@ -39,7 +41,10 @@ class Kernel:
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
         self.function = function
-        self.inner = njit(no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+        self.inner = njit(
+            no_cpython_wrapper=True, no_cfunc_wrapper=True, pipeline_class=InnerCompiler
+        )(function)
+        self.inner._cache = InnerCache(function)
 
     @cached_property
     def outer(self) -> Any:
