@@ -85,6 +85,12 @@ def kernel(function: Function) -> Function:
     return cast(Function, Kernel(function))
 
 
+def prepare(function: Any, *arguments: Any) -> None:
+    """Compile the inner form of a kernel into the cache, for values or Numba's types of them."""
+    kinds = [a if isinstance(a, types.Type) else numba.typeof(a) for a in arguments]
+    function.inner.compile(tuple(kinds))
+
+
 def core_count() -> int:
     """Return how many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
