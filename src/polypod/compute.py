@@ -18,12 +18,13 @@ from numba import types
 from numba.core import config
 from numba.extending import models, register_model, typeof_impl
 
-from polypod.inner import InnerCache, InnerCompiler
+from polypod.inner import make_inner
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 # Numba's own type hints do not know all that is used of it.
 unliteral: Any = types.unliteral
+typeof: Any = numba.typeof
 njit: Any = partial(numba.njit, cache=True, error_model="numpy", nogil=True)
 
 # Below this many creatures a thread costs more than it saves (measured: about 40 us a hand-over).
@@ -41,10 +42,7 @@ class Kernel:
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
         self.function = function
-        self.inner = njit(
-            no_cpython_wrapper=True, no_cfunc_wrapper=True, pipeline_class=InnerCompiler
-        )(function)
-        self.inner._cache = InnerCache(function)
+        self.inner = make_inner(function, njit)
 
     @cached_property
     def outer(self) -> Any:
@@ -87,7 +85,7 @@ def kernel(function: Function) -> Function:
 
 def prepare(function: Any, *arguments: Any) -> None:
     """Compile the inner form of a kernel into the cache, for values or Numba's types of them."""
-    kinds = [a if isinstance(a, types.Type) else numba.typeof(a) for a in arguments]
+    kinds = [a if isinstance(a, types.Type) else typeof(a) for a in arguments]
     function.inner.compile(tuple(kinds))
 
 

@@ -73,8 +73,10 @@ def prepare_search(env: Any, settings: Any, scratch: Any) -> None:
     window, grid, lift = plan("window"), plan("grid"), plan("lift")
     place = Vec3(0.0, 0.0, 0.0)
     sample = {Vec3: place, float: 0.0, int: 0, bool: False}
-    request = StepRequest(*(sample[kind] for kind in get_type_hints(StepRequest).values()))
-    legs = types.NamedTuple((plan("other_a"), plan("other_b"), plan("other_radius")), OtherLegs)
+    parts: list[Any] = [sample[kind] for kind in get_type_hints(StepRequest).values()]
+    request = StepRequest(*parts)
+    named_tuple: Any = types.NamedTuple
+    legs = named_tuple((plan("other_a"), plan("other_b"), plan("other_radius")), OtherLegs)
     prepare(judge_place, env, settings, request, legs, plan("ahead"), plan("ground"), 0.0, 0.0)
     prepare(fill_window, env, settings, request, window)
     highest, corner = plan("window", "highest"), plan("window", "place")
