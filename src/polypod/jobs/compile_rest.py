@@ -40,11 +40,13 @@ def main() -> None:
     from polypod.morphology.load import load_rig
     from polypod.world import set_disks
 
+    env = Environment(Terrain.flat()).kernel_table
+    prepare_maps(env)
+    # Later than the other process, which finds the kernels of a leg's reach compiled by then.
     herd = Herd(load_rig("spider"), 1, Settings())
     legs = herd.tables.legs
     herd.command.set_gait(default_gait(legs.side, legs.row, legs.upright, 0.1))
     set_disks(0, 0.0, herd.kernel_state, herd.kernel_command)
-    env = Environment(Terrain.flat()).kernel_table
     walker = (herd.kernel_state, herd.kernel_command, herd.kernel_tables, herd.kernel_settings)
     everything = (*walker, env, herd.kernel_plan, herd.scratch(0))
     prepare_search(env, herd.kernel_plan, herd.scratch(0))
@@ -55,6 +57,19 @@ def main() -> None:
     begin_frame(0, 0, 0.0, herd.kernel_state)
     # On a creature that stands nowhere yet.
     stand_body(0, *walker, env, herd.scratch(0))
+
+
+def prepare_maps(env: Any) -> None:
+    """Compile what draws the maps of obstacles, which needs no creature."""
+    from polypod.compute import prepare
+    from polypod.environment.elevation import fill_terrain
+    from polypod.environment.grown import fill_obstacles
+    from polypod.environment.maps import make_local_map
+    from polypod.reference import by_reference
+
+    window = by_reference(make_local_map(1))
+    prepare(fill_obstacles, env, window, 0.0, 0.0, 0.0, 0.0)
+    prepare(fill_terrain, env, window)
 
 
 def prepare_search(env: Any, settings: Any, scratch: Any) -> None:
