@@ -18,10 +18,13 @@ from numba import types
 from numba.core import config
 from numba.extending import models, register_model, typeof_impl
 
+from polypod.inner import make_inner
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 # Numba's own type hints do not know all that is used of it.
 unliteral: Any = types.unliteral
+typeof: Any = numba.typeof
 njit: Any = partial(numba.njit, cache=True, error_model="numpy", nogil=True)
 
 # Below this many creatures a thread costs more than it saves (measured: about 40 us a hand-over).
@@ -39,7 +42,7 @@ class Kernel:
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
         self.function = function
-        self.inner = njit(no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+        self.inner = make_inner(function, njit)
 
     @cached_property
     def outer(self) -> Any:
@@ -78,6 +81,12 @@ def kernel(function: Function) -> Function:
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return function
     return cast(Function, Kernel(function))
+
+
+def prepare(function: Any, *arguments: Any) -> None:
+    """Compile the inner form of a kernel into the cache, for values or Numba's types of them."""
+    kinds = [a if isinstance(a, types.Type) else typeof(a) for a in arguments]
+    function.inner.compile(tuple(kinds))
 
 
 def core_count() -> int:

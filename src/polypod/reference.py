@@ -44,6 +44,13 @@ class ReferenceType(types.Type):
         digest = hashlib.sha256(repr(fields).encode()).hexdigest()[:12]
         super().__init__(name=f"{tuple_name}_{digest}")
 
+    def part(self, *names: str) -> Any:
+        """Return the type of a field, or of a field of a field."""
+        kind: Any = self
+        for name in names:
+            kind = kind.field(name)[0]
+        return kind
+
     def field(self, name: str) -> tuple[Any, int] | None:
         """Return type and first word of a field, or None where there is no such field."""
         for field_name, kind, word in self.fields:

@@ -1,6 +1,6 @@
 """Footprints and paths for the feet that need them in a step (P1 3.2, Fig 5).
 
-One function calls the planner for them all: each function that does takes two seconds to compile.
+One function calls the planner for them all.
 """
 
 from __future__ import annotations
