@@ -16,7 +16,7 @@ from polypod.footprints.evenness import even_score, lay_tread
 from polypod.footprints.place import is_foot_wet
 from polypod.footprints.relief import terrain_spread
 from polypod.footprints.scratch import ground_scratch
-from polypod.footprints.settings import FootShape, PlanSettings
+from polypod.footprints.settings import PlanSettings, placed_shape
 from polypod.math.vec3 import Vec3
 from polypod.paths.near import obstacles_near
 from polypod.report.ground import Ground
@@ -28,7 +28,7 @@ FLAT = Terrain.flat()
 
 
 def shape(half_x, half_z, yaw):
-    return FootShape(half_x, half_z, math.sin(yaw), math.cos(yaw), max(half_x, half_z))
+    return placed_shape(half_x, half_z, 0.0, yaw)
 
 
 def stand(env, foot, x, z, leg=LEG):
