@@ -11,6 +11,7 @@ from polypod.body.hull import make_hull_scratch
 from polypod.command import Command
 from polypod.config import Settings
 from polypod.controller.lift import WIDEST_SEARCH
+from polypod.controller.spawn import WIDEST_SPAWN
 from polypod.crowd.avoid import HEEDED
 from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
@@ -40,8 +41,7 @@ STEP_UPRIGHT = 0.115
 STEP_SPRAWLING = 0.175
 # Part of what a leg can fold in stance that a step on level ground may take.
 FOLDING = 0.4
-# Ways are looked for in a map so far to each side, and a cell, leg lengths; steps are planned within
-# less.
+# Ways are looked for in a map so far to each side, and a cell, leg lengths; steps within less.
 SIGHT = (0.5 * ROUTE_CELLS + 1.0) * CELL
 
 
@@ -189,7 +189,7 @@ class Herd:
         rest = np.abs(legs.sole_stance[:, [0, 2]]).sum(axis=1).max()
         trunk = np.abs(self.morphology.body.half_size).sum()
         trunk += np.abs(self.morphology.body.box_centre).sum()
-        searched = SIGHT + WIDEST_SEARCH * self.settings.search_radius
+        searched = SIGHT + max(WIDEST_SEARCH, WIDEST_SPAWN) * self.settings.search_radius
         own = searched * float(legs.length.max()) + max(rest, trunk)
         spaced = np.abs(self.command.arrays.spacing).sum(axis=2).max(axis=1)
         speed = np.maximum(self.command.arrays.speed, self.state.speed)

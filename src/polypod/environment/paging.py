@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from polypod.environment.lattice import FloatArray, IntArray
+from polypod.environment.lattice import BoolArray, FloatArray, IntArray
 from polypod.environment.pages import COLUMN_FACTOR, NO_PAGE, ROW_FACTOR
 from polypod.environment.table import EnvironmentTable
 from polypod.environment.tiled import TiledTerrain
@@ -98,7 +98,7 @@ class Pager:
             f"{terrain.memory:g} MiB has room for {self._most}; give it at least {needed:.0f} MiB"
         )
 
-    def _make(self, tile: tuple[int, int]) -> tuple[FloatArray, FloatArray | None]:
+    def _make(self, tile: tuple[int, int]) -> tuple[FloatArray, BoolArray | None]:
         """Return the heights [side, side] of a tile and which of its samples are water."""
         terrain = self.terrain
         side = np.arange(terrain.tile + 1)

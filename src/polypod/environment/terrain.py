@@ -126,8 +126,8 @@ class Terrain(Lattice):
 
         `pattern` is the files' path with `{column}` and `{row}` in the name: whole numbers, columns
         along +x and rows along +z; together they fill a rectangle. Sample [0, 0] of tile 0, 0 is
-        at `origin`. With `shared`, neighbours both hold the samples along their common side. `water`
-        is a pattern of as many files, where samples that are not 0 are water.
+        at `origin`. With `shared`, neighbours both hold the samples along their common side.
+        `water` is a pattern of as many files, where samples that are not 0 are water.
         """
         return tile_files.from_tiles(pattern, cell, origin, shared, water, memory)
 

@@ -136,7 +136,9 @@ def from_function(
 
     def sampled(ask: PlaceFunction) -> SampleFunction:
         # The same numbers for a sample in whatever tile it is asked for: tiles meet exactly.
-        return lambda row, column: ask(x0 + cell * column, z0 + cell * row)
+        return lambda row, column: ask(
+            np.asarray(x0 + cell * column, np.float64), np.asarray(z0 + cell * row, np.float64)
+        )
 
     for what, function in (("height_of", height_of), ("water_of", water_of)):
         if not (callable(function) or (function is None and what == "water_of")):
