@@ -191,7 +191,8 @@ class Herd:
         trunk += np.abs(self.morphology.body.box_centre).sum()
         searched = SIGHT + max(WIDEST_SEARCH, WIDEST_SPAWN) * self.settings.search_radius
         own = searched * float(legs.length.max()) + max(rest, trunk)
-        spaced = np.abs(self.command.arrays.spacing).sum(axis=2).max(axis=1)
+        spacing = np.maximum(np.abs(self.command.arrays.spacing), np.abs(self.state.spacing))
+        spaced = spacing.sum(axis=2).max(axis=1)
         speed = np.maximum(self.command.arrays.speed, self.state.speed)
         return np.asarray(own + spaced + dt * speed)
 

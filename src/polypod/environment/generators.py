@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.environment.obstacles import LARGEST, SMALLEST, Obstacle
+from polypod.environment.waves import waves
 from polypod.errors import SceneError, choices
 
 FloatArray = NDArray[np.float64]
@@ -53,7 +54,7 @@ def hills(
     """
     cell = wavelength / 20.0
     axis = _axis("hills", size, cell)
-    heights = _waves(seed, wavelength, axis[None, :], axis[:, None])
+    heights = waves(seed, wavelength, axis[None, :], axis[:, None])
     heights -= heights.min()
     return Ground(heights * (relief / max(float(heights.max()), 1e-300)), cell, (axis[0], axis[0]))
 
@@ -69,25 +70,13 @@ def endless_hills(seed: int = 0, relief: float = 0.5, wavelength: float = 4.0) -
     """
     cell = wavelength / 20.0
     axis = _axis("endless-hills", 16.0 * wavelength, cell)
-    heights = _waves(seed, wavelength, axis[None, :], axis[:, None])
+    heights = waves(seed, wavelength, axis[None, :], axis[:, None])
     lowest, share = float(heights.min()), relief / max(float(np.ptp(heights)), 1e-300)
 
     def height_of(x: FloatArray, z: FloatArray) -> FloatArray:
-        return (_waves(seed, wavelength, x, z) - lowest) * share
+        return (waves(seed, wavelength, x, z) - lowest) * share
 
     return Endless(height_of, cell)
-
-
-def _waves(seed: int, wavelength: float, x: FloatArray, z: FloatArray) -> FloatArray:
-    """Return a sum of cosines in random directions, over places whose arrays fit each other."""
-    random = np.random.default_rng(seed)
-    direction = random.uniform(0.0, 2.0 * math.pi, 12)
-    number = 2.0 * math.pi / wavelength * random.uniform(1.0, 2.0, 12)
-    shift = random.uniform(0.0, 2.0 * math.pi, 12)
-    heights = np.zeros(np.broadcast_shapes(x.shape, z.shape))
-    for angle, wave, phase in zip(direction, number, shift, strict=True):
-        heights += np.cos(wave * math.cos(angle) * x + wave * math.sin(angle) * z + phase) / wave
-    return heights
 
 
 def rocks(

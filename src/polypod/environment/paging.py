@@ -51,17 +51,24 @@ class Pager:
             if page is not None:
                 self._page[tile] = page
         missing = [tile for tile in wanted if tile not in self._page]
-        for tile in missing:
-            heights, wet = self._make(tile)
-            page = self._free.pop() if self._free else self._page.pop(next(iter(self._page)))
-            rows = slice(page * (self.terrain.tile + 1), (page + 1) * (self.terrain.tile + 1))
-            self.table.heights[rows] = heights
-            if self.terrain.wet:
-                self.table.water[rows] = wet
-            self._page[tile] = page
-        if missing:
-            self._index()
+        try:
+            for tile in missing:
+                self._fill(tile)
+        finally:
+            # Also where a source fails halfway: what is there is what the index says.
+            if missing:
+                self._index()
         self._spans = spans
+
+    def _fill(self, tile: tuple[int, int]) -> None:
+        """Make a tile, in a free page or in that of the tile least recently used."""
+        heights, wet = self._make(tile)
+        page = self._free.pop() if self._free else self._page.pop(next(iter(self._page)))
+        side = self.terrain.tile + 1
+        self.table.heights[page * side : (page + 1) * side] = heights
+        if wet is not None:
+            self.table.water[page * side : (page + 1) * side] = wet
+        self._page[tile] = page
 
     def _spans_of(self, places: FloatArray, reach: FloatArray) -> IntArray:
         """Return first row, first column, last row and last column of tiles [M, 4], each once."""

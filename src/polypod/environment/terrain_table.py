@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from polypod.environment.pages import NO_PAGE
 from polypod.environment.terrain import Terrain
@@ -13,15 +14,13 @@ from polypod.environment.tiled import TiledTerrain
 
 def whole(terrain: Terrain) -> dict[str, Any]:
     """Return the fields of an `EnvironmentTable` for a terrain that is in memory."""
-    heights = terrain.heights
-    # Kernels read two samples along each axis.
-    heights = np.repeat(heights, 2, axis=0) if heights.shape[0] == 1 else heights
-    heights = np.repeat(heights, 2, axis=1) if heights.shape[1] == 1 else heights
+    heights = _at_least_two(terrain.heights)
+    wet = terrain.water if terrain.water is not None and terrain.wet else None
     edge = (0, 0, heights.shape[0] - 1, heights.shape[1] - 1)
     return {
-        "heights": np.ascontiguousarray(heights),
+        "heights": heights,
         "terrain_range": np.array([heights.min(), heights.max()]),
-        "water": np.array(terrain.water if terrain.wet else np.zeros((0, 0)), np.bool_, order="C"),
+        "water": np.zeros((0, 0), np.bool_) if wet is None else _at_least_two(wet),
         "tile_shift": 0,
         **_place(terrain, edge),
         **_index(1),
@@ -46,6 +45,13 @@ def paged(terrain: TiledTerrain) -> dict[str, Any]:
         # Half empty, so that a search is short.
         **_index(1 << (2 * pages).bit_length()),
     }
+
+
+def _at_least_two(samples: NDArray[Any]) -> NDArray[Any]:
+    """Return samples [rows, columns] of which there are two along each axis, as kernels read."""
+    for axis in (0, 1):
+        samples = np.repeat(samples, 2, axis) if samples.shape[axis] == 1 else samples
+    return np.ascontiguousarray(samples)
 
 
 def _place(terrain: Terrain | TiledTerrain, edge: tuple[int, int, int, int]) -> dict[str, Any]:
