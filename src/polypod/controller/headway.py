@@ -87,14 +87,16 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any) -> No
     state.judged[c, 2] += dt
     if halted or does in (ARRIVED, BLOCKED) or command.speed[c] <= 0.0:
         state.judged[c, 2] = 0.0
-    if state.judged[c, 2] <= dt:
+    # Who has halted is judged from where that was: to shuffle to and fro there is no headway.
+    if state.judged[c, 2] <= dt and state.halts[c] == 0:
         state.judged[c, 0] = x
         state.judged[c, 1] = z
     pendulum = tables.pendulum_time
     if state.judged[c, 2] < (JUDGED_AGAIN if state.halts[c] > 0 else JUDGED) * pendulum:
         return
     gone = math.hypot(x - state.judged[c, 0], z - state.judged[c, 1])
-    futile = gone < LEAST * command.speed[c] * state.judged[c, 2]
+    least = LEAST * command.speed[c] * state.judged[c, 2]
+    futile = gone < (max(least, MOVED * tables.leg_length) if state.halts[c] > 0 else least)
     state.judged[c, 2] = 0.0
     if not futile:
         state.halts[c] = 0

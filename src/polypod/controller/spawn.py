@@ -15,7 +15,7 @@ from polypod.controller.settle import feet_fit, wish_feet
 from polypod.controller.steering import plan_pose
 from polypod.environment.table import surface
 from polypod.math.quat import store_quat
-from polypod.math.vec3 import Vec3, store_vec3
+from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 
 # Body and feet are placed in turns: each fits the other better.
 TURNS = 4
@@ -44,10 +44,12 @@ def stand_feet(
         x = pose.x + offset.x
         z = pose.z + offset.z
         height, _ = surface(env, x, z)
-        above = height + FROM_ABOVE * tables.legs.length[k]
-        store_vec3(state.foot[c, k], Vec3(x, above, z))
-        still = Vec3(0.0, 0.0, 0.0)
-        errand = Errand(Vec3(x, height, z), 0.0, still, 0.0, radius * tables.legs.length[k])
+        store_vec3(state.foot[c, k], Vec3(x, height + FROM_ABOVE * tables.legs.length[k], z))
+    # All feet are there before the first looks for its place: it keeps clear of the others' legs.
+    for k in range(state.swinging.shape[1]):
+        leg = tables.legs.length[k]
+        below = load_vec3(state.foot[c, k]) - Vec3(0.0, FROM_ABOVE * leg, 0.0)
+        errand = Errand(below, 0.0, Vec3(0.0, 0.0, 0.0), 0.0, radius * leg)
         if not plan_foot(
             c, k, 0.0, pose, errand, state, command, tables, settings, env, plan_settings, scratch
         ):

@@ -11,12 +11,16 @@ from typing import Any
 
 from polypod.compute import kernel
 
+# A corner at which the slope changes by less is none.
+ON_LINE = 1e-9
+
 
 @kernel
 def upper_hull(station: Any, need: Any, count: int, hull: Any) -> int:
     """Write the corners of the upper convex hull of (station, need) and return how many.
 
-    `station` [count] rises strictly; the first and last points are always corners.
+    `station` [count] rises strictly; the first and last points are always corners. One on the line
+    between its neighbours is none, however that rounds: twins shall have the same corners.
     """
     corners = 0
     for k in range(count):
@@ -24,7 +28,8 @@ def upper_hull(station: Any, need: Any, count: int, hull: Any) -> int:
             a = hull[corners - 2]
             b = hull[corners - 1]
             rise = (need[k] - need[a]) * (station[b] - station[a])
-            if (need[b] - need[a]) * (station[k] - station[a]) > rise:
+            least = rise + ON_LINE * (station[b] - station[a]) * (station[k] - station[a])
+            if (need[b] - need[a]) * (station[k] - station[a]) > least:
                 break
             corners -= 1
         hull[corners] = k
