@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -179,18 +180,23 @@ class Herd:
         """Whether any creature follows waypoints."""
         return bool(self.command.arrays.waypoint_count.any())
 
+    @cached_property
+    def _extent(self) -> tuple[float, float]:
+        """Length of the longest leg, and the most that feet or trunk lie off the centre, m."""
+        legs, body = self.morphology.legs, self.morphology.body
+        rest = np.abs(legs.sole_stance[:, [0, 2]]).sum(axis=1).max()
+        trunk = np.abs(body.half_size).sum() + np.abs(body.box_centre).sum()
+        return float(legs.length.max()), float(max(rest, trunk))
+
     def sight(self, dt: float) -> FloatArray:
         """Return how far [C] from its body each creature may ask for ground in a frame, m.
 
         Along x or z: footprints are looked for about where the body will be, ways in a map; `dt` is
         the frame's length, s.
         """
-        legs = self.morphology.legs
-        rest = np.abs(legs.sole_stance[:, [0, 2]]).sum(axis=1).max()
-        trunk = np.abs(self.morphology.body.half_size).sum()
-        trunk += np.abs(self.morphology.body.box_centre).sum()
+        longest, size = self._extent
         searched = SIGHT + max(WIDEST_SEARCH, WIDEST_SPAWN) * self.settings.search_radius
-        own = searched * float(legs.length.max()) + max(rest, trunk)
+        own = searched * longest + size
         spacing = np.maximum(np.abs(self.command.arrays.spacing), np.abs(self.state.spacing))
         spaced = spacing.sum(axis=2).max(axis=1)
         speed = np.maximum(self.command.arrays.speed, self.state.speed)

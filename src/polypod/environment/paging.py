@@ -28,6 +28,8 @@ class Pager:
         self._free = list(range(len(table.heights) // (terrain.tile + 1) - 1, 0, -1))
         self._most = len(self._free)
         self._spans = np.zeros((0, 4), np.int64)
+        self._origin = np.array(terrain.origin)[::-1]
+        self._first, self._last = np.array([terrain.edge[:2] * 2, terrain.edge[2:] * 2], float)
 
     @property
     def held(self) -> int:
@@ -45,7 +47,7 @@ class Pager:
         spans = self._spans_of(places, reach)
         if np.array_equal(spans, self._spans):
             return
-        wanted = self._tiles_of(spans)
+        wanted = self._tiles_of(np.unique(spans, axis=0))
         for tile in wanted:
             page = self._page.pop(tile, None)
             if page is not None:
@@ -71,15 +73,15 @@ class Pager:
         self._page[tile] = page
 
     def _spans_of(self, places: FloatArray, reach: FloatArray) -> IntArray:
-        """Return first row, first column, last row and last column of tiles [M, 4], each once."""
-        terrain = self.terrain
-        middle = (places[:, ::-1] - np.array(terrain.origin)[::-1]) / terrain.cell
-        # A sample more: the patch of the farthest place ends there.
-        around = (reach / terrain.cell + 1.0)[:, None]
-        least, most = np.array(terrain.edge[:2]), np.array(terrain.edge[2:])
-        first = np.clip(np.floor(middle - around), least, most).astype(np.int64)
-        last = np.clip(np.ceil(middle + around), least, most).astype(np.int64)
-        return np.unique(np.concatenate([first, last], axis=1) // terrain.tile, axis=0)
+        """Return first row, first column, last row and last column of tiles [N, 4]."""
+        middle = (places[:, ::-1] - self._origin) / self.terrain.cell
+        # Two samples more: the patch of the farthest place ends there.
+        around = (reach / self.terrain.cell + 2.0)[:, None]
+        ends = np.concatenate([middle - around, middle + around], axis=1)
+        # In every frame: these are several times as fast as np.clip.
+        ends = np.minimum(np.maximum(np.floor(ends), self._first), self._last)
+        spans: IntArray = ends.astype(np.int64) >> self.table.tile_shift
+        return spans
 
     def _tiles_of(self, spans: IntArray) -> list[tuple[int, int]]:
         """Return rows and columns of the tiles in spans, each once, in order."""
