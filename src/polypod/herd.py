@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,8 @@ import numpy as np
 from polypod.body.hull import make_hull_scratch
 from polypod.command import Command
 from polypod.config import Settings
+from polypod.controller.lift import WIDEST_SEARCH
+from polypod.controller.spawn import WIDEST_SPAWN
 from polypod.crowd.avoid import HEEDED
 from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
@@ -21,7 +24,8 @@ from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
-from polypod.routes.state import RouteScratch, make_route_scratch
+from polypod.routes.passable import CELL
+from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
 from polypod.state import HerdTables, JointTable, make_command, make_state
 
 WAYPOINT_ROOM = 256
@@ -38,6 +42,8 @@ STEP_UPRIGHT = 0.115
 STEP_SPRAWLING = 0.175
 # Part of what a leg can fold in stance that a step on level ground may take.
 FOLDING = 0.4
+# Ways are looked for in a map so far to each side, and a cell, leg lengths; steps within less.
+SIGHT = (0.5 * ROUTE_CELLS + 1.0) * CELL
 
 
 class Scratch(NamedTuple):
@@ -173,6 +179,28 @@ class Herd:
     def follows(self) -> bool:
         """Whether any creature follows waypoints."""
         return bool(self.command.arrays.waypoint_count.any())
+
+    @cached_property
+    def _extent(self) -> tuple[float, float]:
+        """Length of the longest leg, and the most that feet or trunk lie off the centre, m."""
+        legs, body = self.morphology.legs, self.morphology.body
+        rest = np.abs(legs.sole_stance[:, [0, 2]]).sum(axis=1).max()
+        trunk = np.abs(body.half_size).sum() + np.abs(body.box_centre).sum()
+        return float(legs.length.max()), float(max(rest, trunk))
+
+    def sight(self, dt: float) -> FloatArray:
+        """Return how far [C] from its body each creature may ask for ground in a frame, m.
+
+        Along x or z: footprints are looked for about where the body will be, ways in a map; `dt` is
+        the frame's length, s.
+        """
+        longest, size = self._extent
+        searched = SIGHT + max(WIDEST_SEARCH, WIDEST_SPAWN) * self.settings.search_radius
+        own = searched * longest + size
+        spacing = np.maximum(np.abs(self.command.arrays.spacing), np.abs(self.state.spacing))
+        spaced = spacing.sum(axis=2).max(axis=1)
+        speed = np.maximum(self.command.arrays.speed, self.state.speed)
+        return np.asarray(own + spaced + dt * speed)
 
     @property
     def pose(self) -> Pose:

@@ -17,6 +17,7 @@ from polypod.crowd.company import list_company, make_company, note_herd
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain
+from polypod.environment.tiled import TiledTerrain
 from polypod.errors import SettingError
 from polypod.frame import step_creatures
 from polypod.gait.advance import destination_disks
@@ -56,7 +57,7 @@ class World:
 
     def __init__(
         self,
-        place: Terrain | Environment | None = None,
+        place: Terrain | TiledTerrain | Environment | None = None,
         obstacles: Sequence[Obstacle] = (),
         *,
         threads: int | None = None,
@@ -113,6 +114,7 @@ class World:
         herd.state.position[:, 0] = points[:, 0]
         herd.state.position[:, 2] = points[:, 1]
         herd.state.heading[:] = herd.command.heading
+        self.environment.load_ground(herd.state.position[:, [0, 2]], herd.sight(0.0))
         chosen = self._gait(herd, gait, float(np.max(herd.command.speed)))
         herd.command.set_gait(chosen)
         for c in range(count):
@@ -153,6 +155,13 @@ class World:
             note_herd(herd.kernel_state, herd.kernel_command, herd.kernel_tables, company)
         list_company(company)
 
+    def _load_ground(self, dt: float) -> None:
+        """Have the ground about all creatures at hand, where it comes in tiles."""
+        if self.environment.pager is not None and self.herds:
+            places = [herd.state.position[:, [0, 2]] for herd in self.herds]
+            sight = [herd.sight(dt) for herd in self.herds]
+            self.environment.load_ground(np.concatenate(places), np.concatenate(sight))
+
     def _spawn(self, herd: Herd, c: int) -> bool:
         scratch = herd.scratch(0)
         fits = spawn(
@@ -181,6 +190,7 @@ class World:
         if not 0.0 < dt <= LONGEST_STEP:
             raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
         self.environment.advance(self.time + dt)
+        self._load_ground(dt)
         self.look_round()
         for herd in self.herds:
             for worker in range(self.threads):
@@ -190,6 +200,8 @@ class World:
                 step_creatures(herd, self.kernel_environment, dt, first, last, worker)
 
             over_creatures(run, herd.count, self.threads)
+        if self.environment.table.missed[0]:
+            raise RuntimeError("a creature asked for ground beyond its sight")
         self.time += dt
 
 

@@ -20,6 +20,7 @@ from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 # Body and feet are placed in turns: each fits the other better.
 TURNS = 4
 SEARCH_GROWTH = 1.6
+WIDEST_SPAWN = SEARCH_GROWTH ** (TURNS - 1)
 # Feet come down from so many leg lengths above their place.
 FROM_ABOVE = 0.1
 

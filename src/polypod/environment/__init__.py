@@ -4,5 +4,6 @@ from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.scattering import scatter
 from polypod.environment.terrain import Terrain
+from polypod.environment.tiled import TiledTerrain
 
-__all__ = ["Environment", "Obstacle", "Terrain", "scatter"]
+__all__ = ["Environment", "Obstacle", "Terrain", "TiledTerrain", "scatter"]

@@ -12,6 +12,8 @@ from polypod.environment.obstacles import Obstacle
 from polypod.environment.shapes import BOX, CYLINDER, SPHERE
 from polypod.environment.table import EnvironmentTable, IntArray
 from polypod.environment.terrain import Terrain
+from polypod.environment.terrain_table import paged, whole
+from polypod.environment.tiled import TiledTerrain
 
 KIND_OF_SHAPE = {"box": BOX, "hull": BOX, "sphere": SPHERE, "cylinder": CYLINDER}
 MOST_BUCKETS = 1 << 18
@@ -22,7 +24,7 @@ MOST_LISTED_MOVING = 64
 
 
 def build_table(
-    terrain: Terrain, obstacles: Sequence[Obstacle], movable: bool = False
+    terrain: Terrain | TiledTerrain, obstacles: Sequence[Obstacle], movable: bool = False
 ) -> EnvironmentTable:
     """Return the table of an environment at its start; each obstacle's solids are rows in turn.
 
@@ -45,16 +47,8 @@ def build_table(
         # Listed anew in every frame, in memory that is large enough for any of them.
         start = np.zeros(MOST_BUCKETS_MOVING + 1, np.int64)
         item = np.zeros(max(1, len(solids)) * MOST_LISTED_MOVING, np.int64)
-    heights = terrain.heights
-    # Kernels read two samples along each axis.
-    heights = np.repeat(heights, 2, axis=0) if heights.shape[0] == 1 else heights
-    heights = np.repeat(heights, 2, axis=1) if heights.shape[1] == 1 else heights
-    wet = terrain.water is not None and bool(np.any(terrain.water))
     return EnvironmentTable(
-        heights=np.ascontiguousarray(heights),
-        terrain_place=np.array([terrain.origin[0], terrain.origin[1], terrain.cell]),
-        terrain_range=np.array([heights.min(), heights.max()]),
-        water=np.array(terrain.water if wet else np.zeros((0, 0)), dtype=np.bool_, order="C"),
+        **(paged(terrain) if isinstance(terrain, TiledTerrain) else whole(terrain)),
         owner=owner,
         kind=np.array([KIND_OF_SHAPE[o.shape] for o in solids], dtype=np.int64),
         position=np.array([o.position for o in solids], dtype=np.float64).reshape(-1, 3),

@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from polypod.compute import kernel
+from polypod.environment.pages import stored
 from polypod.environment.table import EnvironmentTable, FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -36,24 +37,23 @@ def fill_terrain(env: EnvironmentTable, window: LocalMap) -> None:
             window.jump[i, j] = TERRAIN_JUMP * cell
     if level:
         return
-    rows, columns = env.heights.shape
     for j in range(n + 1):
         u = (window.place[0] + j * cell - env.terrain_place[0]) / env.terrain_place[2]
-        u = min(max(u, 0.0), columns - 1.0)
-        window.column[j] = min(int(u), columns - 2)
+        u = min(max(u, float(env.first_column)), float(env.last_column))
+        window.column[j] = min(math.floor(u), env.last_column - 1)
         window.fraction[j] = u - window.column[j]
     last_row = 0
     for i in range(n + 1):
         v = (window.place[1] + i * cell - env.terrain_place[1]) / env.terrain_place[2]
-        v = min(max(v, 0.0), rows - 1.0)
-        row = min(int(v), rows - 2)
+        v = min(max(v, float(env.first_row)), float(env.last_row))
+        row = min(math.floor(v), env.last_row - 1)
         # Sample rows inside the map's row that has just ended, then the line between two map rows.
         if i > 0:
             for inner in range(last_row + 1, row + 1):
-                _scan_line(env.heights, window.column, window.fraction, window.line, n, inner, 0.0)
+                _scan_line(env, window.column, window.fraction, window.line, n, inner, 0.0)
                 _take_line(window.highest, window.lowest, window.line, n, i - 1)
         last_row = row
-        _scan_line(env.heights, window.column, window.fraction, window.line, n, row, v - row)
+        _scan_line(env, window.column, window.fraction, window.line, n, row, v - row)
         if i > 0:
             _take_line(window.highest, window.lowest, window.line, n, i - 1)
         if i < n:
@@ -62,7 +62,7 @@ def fill_terrain(env: EnvironmentTable, window: LocalMap) -> None:
 
 @kernel
 def _scan_line(
-    heights: FloatArray,
+    env: EnvironmentTable,
     first: IntArray,
     share: FloatArray,
     line: FloatArray,
@@ -74,10 +74,12 @@ def _scan_line(
 
     Map column j goes from place `share[j]` in patch `first[j]` to `share[j + 1]` in `first[j + 1]`.
     """
+    heights = env.heights
     here = 1.0 - fraction
     column = first[0]
-    near = heights[row, column] * here + heights[row + 1, column] * fraction
-    far = heights[row, column + 1] * here + heights[row + 1, column + 1] * fraction
+    i, k = stored(env, row, column)
+    near = heights[i, k] * here + heights[i + 1, k] * fraction
+    far = heights[i, k + 1] * here + heights[i + 1, k + 1] * fraction
     height = near + (far - near) * share[0]
     for j in range(n):
         greatest = height
@@ -88,7 +90,8 @@ def _scan_line(
             least = min(least, far)
             column += 1
             near = far
-            far = heights[row, column + 1] * here + heights[row + 1, column + 1] * fraction
+            i, k = stored(env, row, column)
+            far = heights[i, k + 1] * here + heights[i + 1, k + 1] * fraction
         height = near + (far - near) * share[j + 1]
         line[0, j] = max(greatest, height)
         line[1, j] = min(least, height)
@@ -112,7 +115,6 @@ def fill_water(
 ) -> None:
     """Mark the cells in which the box around some foot overlaps water."""
     n = window.size[0]
-    rows, columns = env.water.shape
     sample = env.terrain_place[2]
     cosine = abs(math.cos(foot_yaw))
     sine = abs(math.sin(foot_yaw))
@@ -120,18 +122,23 @@ def fill_water(
     reach_z = foot_half_x * sine + foot_half_z * cosine
     for i in range(n):
         z = window.place[1] + i * window.place[2] - env.terrain_place[1]
-        top = _nearest_sample((z - reach_z) / sample, rows)
-        bottom = _nearest_sample((z + window.place[2] + reach_z) / sample, rows)
+        top = _nearest_sample((z - reach_z) / sample, env.first_row, env.last_row)
+        bottom = _nearest_sample(
+            (z + window.place[2] + reach_z) / sample, env.first_row, env.last_row
+        )
         for j in range(n):
             x = window.place[0] + j * window.place[2] - env.terrain_place[0]
-            left = _nearest_sample((x - reach_x) / sample, columns)
-            right = _nearest_sample((x + window.place[2] + reach_x) / sample, columns)
+            left = _nearest_sample((x - reach_x) / sample, env.first_column, env.last_column)
+            right = _nearest_sample(
+                (x + window.place[2] + reach_x) / sample, env.first_column, env.last_column
+            )
             for row in range(top, bottom + 1):
                 for column in range(left, right + 1):
-                    if env.water[row, column]:
+                    at_row, at_column = stored(env, row, column)
+                    if env.water[at_row, at_column]:
                         window.wet[i, j] = True
 
 
 @kernel
-def _nearest_sample(place: float, count: int) -> int:
-    return int(min(max(math.floor(place + 0.5), 0.0), count - 1.0))
+def _nearest_sample(place: float, first: int, last: int) -> int:
+    return min(max(math.floor(place + 0.5), first), last)

@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike
 from polypod.environment.build import build_table
 from polypod.environment.motion import make_tracks, move_obstacles
 from polypod.environment.obstacles import FASTEST_TURN, LARGEST, Obstacle
-from polypod.environment.table import EnvironmentTable
+from polypod.environment.paging import Pager
+from polypod.environment.table import EnvironmentTable, FloatArray, TiledTable
 from polypod.environment.terrain import Terrain
+from polypod.environment.tiled import TiledTerrain
 from polypod.errors import SceneError
 from polypod.reference import by_reference
 
@@ -28,7 +30,7 @@ class Environment:
 
     def __init__(
         self,
-        terrain: Terrain | None = None,
+        terrain: Terrain | TiledTerrain | None = None,
         obstacles: Sequence[Obstacle] = (),
         *,
         movable: bool = False,
@@ -46,12 +48,33 @@ class Environment:
         table = build_table(self.terrain, self.obstacles, self.movable)
         if self.changes:
             move_obstacles(by_reference(table), self._kernel_tracks, 0.0)
-        return table
+        if not isinstance(self.terrain, TiledTerrain):
+            return table
+        tiled = TiledTable(*table)
+        tiled.ground = self.terrain
+        return tiled
 
     @cached_property
     def kernel_table(self) -> EnvironmentTable:
         """The table by reference, as kernels take it."""
-        return by_reference(self.table)
+        return by_reference(EnvironmentTable(*self.table))
+
+    @cached_property
+    def pager(self) -> Pager | None:
+        """What keeps the tiles of a tiled terrain; None for others."""
+        return Pager(self.terrain, self.table) if isinstance(self.terrain, TiledTerrain) else None
+
+    def load_ground(self, places: FloatArray, reach: FloatArray) -> None:
+        """Have the ground within reach [N] of places [N, 2] (x, z) in memory, m.
+
+        `World` does so for its creatures in each frame. Whoever asks kernels about a tiled terrain
+        by itself must do it too; of others all is there always.
+
+        Raises:
+            SceneError: so much does not fit into the terrain's memory.
+        """
+        if self.pager is not None:
+            self.pager.load(places, reach)
 
     @property
     def changes(self) -> bool:

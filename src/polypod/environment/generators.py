@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.environment.obstacles import LARGEST, SMALLEST, Obstacle
+from polypod.environment.waves import waves
 from polypod.errors import SceneError, choices
 
 FloatArray = NDArray[np.float64]
@@ -33,6 +34,13 @@ class Ground(NamedTuple):
     parts: tuple[Obstacle, ...] = ()
 
 
+class Endless(NamedTuple):
+    """What a generator of ground without an end makes."""
+
+    height_of: Callable[[FloatArray, FloatArray], FloatArray]  # of world x [N] and z [N], m
+    cell: float
+
+
 def hills(
     seed: int = 0, relief: float = 0.5, wavelength: float = 4.0, size: float = 64.0
 ) -> Ground:
@@ -46,16 +54,29 @@ def hills(
     """
     cell = wavelength / 20.0
     axis = _axis("hills", size, cell)
-    random = np.random.default_rng(seed)
-    direction = random.uniform(0.0, 2.0 * math.pi, 12)
-    number = 2.0 * math.pi / wavelength * random.uniform(1.0, 2.0, 12)
-    shift = random.uniform(0.0, 2.0 * math.pi, 12)
-    heights = np.zeros((len(axis), len(axis)))
-    for angle, wave, phase in zip(direction, number, shift, strict=True):
-        along_x, along_z = wave * math.cos(angle) * axis, wave * math.sin(angle) * axis
-        heights += np.cos(along_x[None, :] + along_z[:, None] + phase) / wave
+    heights = waves(seed, wavelength, axis[None, :], axis[:, None])
     heights -= heights.min()
     return Ground(heights * (relief / max(float(heights.max()), 1e-300)), cell, (axis[0], axis[0]))
+
+
+def endless_hills(seed: int = 0, relief: float = 0.5, wavelength: float = 4.0) -> Endless:
+    """Return smooth hills without an end: those of `hills`, going on.
+
+    Args:
+        seed: of the random directions.
+        relief: metres from the lowest to the highest point of a square of 16 wavelengths about the
+            origin; farther off some are a little lower or higher.
+        wavelength: metres from hill to hill; the shortest waves are half as long.
+    """
+    cell = wavelength / 20.0
+    axis = _axis("endless-hills", 16.0 * wavelength, cell)
+    heights = waves(seed, wavelength, axis[None, :], axis[:, None])
+    lowest, share = float(heights.min()), relief / max(float(np.ptp(heights)), 1e-300)
+
+    def height_of(x: FloatArray, z: FloatArray) -> FloatArray:
+        return (waves(seed, wavelength, x, z) - lowest) * share
+
+    return Endless(height_of, cell)
 
 
 def rocks(
@@ -225,8 +246,9 @@ def trenches(
     return Ground(floor, cell, (0.0, near), tuple(parts))
 
 
-GENERATORS: dict[str, Callable[..., Ground]] = {
+GENERATORS: dict[str, Callable[..., Ground | Endless]] = {
     "hills": hills,
+    "endless-hills": endless_hills,
     "stairs": stairs,
     "steps": steps,
     "rocks": rocks,
@@ -236,7 +258,7 @@ GENERATORS: dict[str, Callable[..., Ground]] = {
 _ANY_SIGN = ("start", "angle")
 
 
-def generate(generator: str, keys: Mapping[str, Any]) -> Ground:
+def generate(generator: str, keys: Mapping[str, Any]) -> Ground | Endless:
     """Call a generator by name; raise SceneError for a wrong name, key or value."""
     if generator not in GENERATORS:
         raise SceneError(

@@ -12,11 +12,11 @@ from polypod.environment.obstacles import LARGEST, SMALLEST, Obstacle, three_num
 from polypod.errors import SceneError
 
 if TYPE_CHECKING:
-    from polypod.environment.terrain import Terrain
+    from polypod.environment.lattice import Lattice
 
 
 def scatter(
-    terrain: Terrain,
+    terrain: Lattice,
     count: int,
     area: Sequence[float],
     size: Sequence[Sequence[float]],

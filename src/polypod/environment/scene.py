@@ -9,6 +9,7 @@ from typing import Any
 
 from polypod.environment.convex_parts import COARSEST, FINEST
 from polypod.environment.environment import Environment
+from polypod.environment.lattice import Lattice
 from polypod.environment.obstacles import (
     FASTEST_TURN,
     LARGEST,
@@ -24,6 +25,7 @@ from polypod.environment.scene_terrain import LARGEST_SEED, read_terrain
 from polypod.environment.scene_values import SceneTable, shown, within
 from polypod.environment.splitting import MOST_PARTS, Split
 from polypod.environment.terrain import Terrain
+from polypod.environment.tiled import TiledTerrain
 from polypod.errors import SceneError, choices
 
 MOST_THINGS = 100_000  # obstacles, or creatures
@@ -77,7 +79,7 @@ class Scene:
     """What a scene file says. Obstacles are in its order, scattered ones after."""
 
     path: Path
-    terrain: Terrain
+    terrain: Terrain | TiledTerrain
     obstacles: tuple[Obstacle, ...] = ()
     creatures: tuple[CreatureSpec, ...] = ()
     pushes: tuple[PushSpec, ...] = ()
@@ -110,7 +112,7 @@ def read_scene(path: str | Path, seed: int = 0) -> Scene:
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{path}: the scene is no valid TOML ({error})") from None
     top = SceneTable(str(path), values, ("terrain", "obstacle", "scatter", "creature", "push"))
-    terrain = Terrain.flat()
+    terrain: Terrain | TiledTerrain = Terrain.flat()
     if "terrain" in top:
         terrain = read_terrain(path, top.values["terrain"], seed)
     obstacles = [_obstacle(path, place, entry) for place, entry in _entries(top, "obstacle")]
@@ -206,7 +208,7 @@ def _motion(table: SceneTable) -> dict[str, Any]:
     return motion
 
 
-def _scatter(place: str, values: Any, terrain: Terrain, more_seed: int) -> tuple[Obstacle, ...]:
+def _scatter(place: str, values: Any, terrain: Lattice, more_seed: int) -> tuple[Obstacle, ...]:
     table = SceneTable(place, values, ("name", "count", "area", "size", "seed", "forbidden_share"))
     count = table.whole("count", None, 0, MOST_THINGS)
     area = table.numbers("area", "x0 z0 x1 z1", None, -LARGEST, LARGEST)

@@ -11,14 +11,15 @@ from polypod.environment.heightmaps import FORMATS, MOST_SAMPLES
 from polypod.environment.obstacles import LARGEST, SMALLEST
 from polypod.environment.scene_values import SceneTable, shown, within
 from polypod.environment.terrain import Terrain, generated
+from polypod.environment.tiled import LEAST_MEMORY, MEMORY, MOST_MEMORY, TiledTerrain
 from polypod.environment.triangles import MESHES
 from polypod.errors import SceneError, choices
 
 LARGEST_SEED = 2**62
-KINDS = ("generator", "heightmap", "mesh")
+KINDS = ("generator", "heightmap", "tiles", "mesh")
 # Keys of each kind of heightmap, besides heightmap, origin and water.
 HEIGHTMAPS = {
-    ".npy": ("cell",),
+    ".npy": ("cell", "memory"),
     ".png": ("cell", "relief"),
     ".raw": ("cell", "relief", "format", "rows", "columns"),
     ".tif": (),
@@ -26,7 +27,7 @@ HEIGHTMAPS = {
 }
 
 
-def read_terrain(path: Path, values: Any, more_seed: int) -> Terrain:
+def read_terrain(path: Path, values: Any, more_seed: int) -> Terrain | TiledTerrain:
     """Return the terrain of a scene.
 
     Args:
@@ -42,15 +43,18 @@ def read_terrain(path: Path, values: Any, more_seed: int) -> Terrain:
         raise SceneError(f"{place} must be a table of keys, not {shown(values)}")
     kinds = [kind for kind in KINDS if kind in values]
     if not kinds:
-        raise SceneError(f"{place} needs a heightmap (a file), a mesh (a file) or a generator")
+        raise SceneError(
+            f"{place} needs a heightmap (a file), tiles (files), a mesh (a file) or a generator"
+        )
     if len(kinds) > 1:
         raise SceneError(f"{place} has {choices(kinds)}; it must have only one of them")
     if kinds == ["generator"]:
         return _generated(place, values, more_seed)
-    return (_mesh if kinds == ["mesh"] else _heightmap)(place, values, path.parent)
+    read = {"heightmap": _heightmap, "tiles": _tiles, "mesh": _mesh}[kinds[0]]
+    return read(place, values, path.parent)
 
 
-def _generated(place: str, values: dict[str, Any], more_seed: int) -> Terrain:
+def _generated(place: str, values: dict[str, Any], more_seed: int) -> Terrain | TiledTerrain:
     generator = values["generator"]
     if generator not in tuple(GENERATORS):
         raise SceneError(
@@ -63,7 +67,7 @@ def _generated(place: str, values: dict[str, Any], more_seed: int) -> Terrain:
     return within(place, lambda: generated(generator, **keys))
 
 
-def _heightmap(place: str, values: dict[str, Any], folder: Path) -> Terrain:
+def _heightmap(place: str, values: dict[str, Any], folder: Path) -> Terrain | TiledTerrain:
     file = folder / SceneTable(place, values, values).text("heightmap")
     suffix = file.suffix.lower()
     if suffix not in HEIGHTMAPS:
@@ -79,11 +83,27 @@ def _heightmap(place: str, values: dict[str, Any], folder: Path) -> Terrain:
         return within(place, lambda: Terrain.from_geotiff(file, origin, water))
     cell = table.number("cell", None, SMALLEST, LARGEST)
     if suffix == ".npy":
-        return within(place, lambda: Terrain.from_npy(file, cell, origin, water))
+        memory = _memory(table) if "memory" in table else None
+        return within(place, lambda: Terrain.from_npy(file, cell, origin, water, memory))
     if suffix == ".png":
         relief = table.number("relief", None, 0.0, LARGEST)
         return within(place, lambda: Terrain.from_png(file, cell, relief, origin, water))
     return within(place, _raw(table, file, cell, origin, water))
+
+
+def _memory(table: SceneTable) -> float:
+    return table.number("memory", MEMORY, LEAST_MEMORY, MOST_MEMORY)
+
+
+def _tiles(place: str, values: dict[str, Any], folder: Path) -> TiledTerrain:
+    keys = ("tiles", "cell", "origin", "shared", "water", "memory")
+    table = SceneTable(f"{place} of tiles", values, keys)
+    pattern = folder / table.text("tiles")
+    cell = table.number("cell", None, SMALLEST, LARGEST)
+    origin = table.numbers("origin", "x z", (0.0, 0.0), -LARGEST, LARGEST)
+    shared, memory = table.flag("shared", True), _memory(table)
+    water = folder / table.text("water") if "water" in table else None
+    return within(place, lambda: Terrain.from_tiles(pattern, cell, origin, shared, water, memory))
 
 
 def _raw(
@@ -101,7 +121,7 @@ def _raw(
     return lambda: Terrain.from_raw(file, form, cell, relief, rows, columns, origin, water)
 
 
-def _mesh(place: str, values: dict[str, Any], folder: Path) -> Terrain:
+def _mesh(place: str, values: dict[str, Any], folder: Path) -> Terrain | TiledTerrain:
     table = SceneTable(f"{place} of a mesh", values, ("mesh", "cell", "scale", "origin", "water"))
     file = folder / table.text("mesh")
     if file.suffix.lower() not in MESHES:

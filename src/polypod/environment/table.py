@@ -8,13 +8,14 @@ highest over a point of the plan is the surface there.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from polypod.compute import kernel
 from polypod.environment.buckets import bucket_at, bucket_line, first_met
+from polypod.environment.pages import stored
 from polypod.environment.placing import own_point, world_direction
 from polypod.environment.shapes import (
     column_of,
@@ -24,10 +25,12 @@ from polypod.environment.shapes import (
 )
 from polypod.math.vec3 import Vec3
 
+if TYPE_CHECKING:
+    from polypod.environment.lattice import Lattice
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
-
 GROUND = -1  # the support of a foot that stands on the terrain
 
 
@@ -41,10 +44,18 @@ class EnvironmentTable(NamedTuple):
     `bucket_item[bucket_start[r * C + c] : bucket_start[r * C + c + 1]]`, in rising order.
     """
 
-    heights: FloatArray  # [rows, columns] m; rows run along +z, columns along +x
+    heights: FloatArray  # [rows, columns] m; rows run along +z, columns along +x; or in pages
     terrain_place: FloatArray  # [3] x and z of sample [0, 0], metres between samples
-    terrain_range: FloatArray  # [2] m: the lowest and the highest sample
-    water: BoolArray  # [rows, columns] no foot may stand here; [0, 0] where there is no water
+    terrain_range: FloatArray  # [2] m: no sample is lower or higher; -inf, inf where in pages
+    water: BoolArray  # like heights: no foot may stand here; [0, 0] where there is no water
+    first_row: int  # the terrain's edges: it has samples from here
+    first_column: int
+    last_row: int  # to here; at least two along each axis
+    last_column: int
+    tile_shift: int  # where in pages, a tile has 2 ** this patches along each side; else 0
+    tile_key: IntArray  # [T, 2] row and column of a tile: an index with open addressing
+    tile_page: IntArray  # [T] in which it is, or NO_PAGE; T is a power of two
+    missed: BoolArray  # [1] a sample was asked for that is in no page
     owner: IntArray  # [S] the obstacle of which each solid is (a part)
     kind: IntArray  # [S] BOX, SPHERE or CYLINDER
     position: FloatArray  # [S, 3] centre
@@ -79,28 +90,36 @@ class EnvironmentTable(NamedTuple):
     bucket_range: IntArray  # [S, 4] first row, first column, last row, last column (inclusive)
 
 
-@kernel
-def _patch(
-    heights: FloatArray, place: FloatArray, x: float, z: float
-) -> tuple[int, int, float, float]:
-    """Return row and column of the patch of terrain at (x, z) and the place in it, from 0 to 1.
+class TiledTable(EnvironmentTable):
+    """The table of a tiled terrain, with the terrain itself.
 
-    Beyond the edge it is the nearest place at the edge.
+    Who looks at a whole walk, as pictures and reports do, asks `ground`: the pages hold only what
+    is near the creatures now.
     """
-    rows, columns = heights.shape
-    u = (x - place[0]) / place[2]
-    v = (z - place[1]) / place[2]
-    u = min(max(u, 0.0), columns - 1.0)
-    v = min(max(v, 0.0), rows - 1.0)
-    column = min(int(u), columns - 2)
-    row = min(int(v), rows - 2)
-    return row, column, u - column, v - row
+
+    ground: Lattice
+
+
+@kernel
+def _patch(env: EnvironmentTable, x: float, z: float) -> tuple[int, int, float, float]:
+    """Return where in `heights` the patch of terrain at (x, z) begins, and the place in it.
+
+    The place goes from 0 to 1. Beyond the edge it is the nearest place at the edge.
+    """
+    u = (x - env.terrain_place[0]) / env.terrain_place[2]
+    v = (z - env.terrain_place[1]) / env.terrain_place[2]
+    u = min(max(u, float(env.first_column)), float(env.last_column))
+    v = min(max(v, float(env.first_row)), float(env.last_row))
+    column = min(math.floor(u), env.last_column - 1)
+    row = min(math.floor(v), env.last_row - 1)
+    at_row, at_column = stored(env, row, column)
+    return at_row, at_column, u - column, v - row
 
 
 @kernel
 def ground_height(env: EnvironmentTable, x: float, z: float) -> float:
     """Return the terrain's height in metres, bilinear between its samples; no obstacles."""
-    row, column, u, v = _patch(env.heights, env.terrain_place, x, z)
+    row, column, u, v = _patch(env, x, z)
     near = env.heights[row, column] * (1.0 - u) + env.heights[row, column + 1] * u
     far = env.heights[row + 1, column] * (1.0 - u) + env.heights[row + 1, column + 1] * u
     return float(near * (1.0 - v) + far * v)
@@ -109,7 +128,7 @@ def ground_height(env: EnvironmentTable, x: float, z: float) -> float:
 @kernel
 def ground_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
     """Return the terrain's unit normal; between two patches, that of the one further along x, z."""
-    row, column, u, v = _patch(env.heights, env.terrain_place, x, z)
+    row, column, u, v = _patch(env, x, z)
     a = env.heights[row, column]
     b = env.heights[row, column + 1]
     c = env.heights[row + 1, column]
@@ -117,12 +136,11 @@ def ground_normal(env: EnvironmentTable, x: float, z: float) -> Vec3:
     slope_x = ((b - a) * (1.0 - v) + (d - c) * v) / env.terrain_place[2]
     slope_z = ((c - a) * (1.0 - u) + (d - b) * u) / env.terrain_place[2]
     # Beyond the edge the ground is level across it.
-    rows, columns = env.heights.shape
     over_x = (x - env.terrain_place[0]) / env.terrain_place[2]
     over_z = (z - env.terrain_place[1]) / env.terrain_place[2]
-    if over_x < 0.0 or over_x > columns - 1.0:
+    if over_x < env.first_column or over_x > env.last_column:
         slope_x = 0.0
-    if over_z < 0.0 or over_z > rows - 1.0:
+    if over_z < env.first_row or over_z > env.last_row:
         slope_z = 0.0
     size = math.sqrt(1.0 + slope_x * slope_x + slope_z * slope_z)
     return Vec3(-slope_x / size, 1.0 / size, -slope_z / size)
@@ -220,12 +238,12 @@ def is_wet(env: EnvironmentTable, x: float, z: float) -> bool:
     """Say whether a plan point lies in water: the terrain's nearest sample is marked so."""
     if env.water.shape[0] == 0:
         return False
-    rows, columns = env.water.shape
     column = math.floor((x - env.terrain_place[0]) / env.terrain_place[2] + 0.5)
     row = math.floor((z - env.terrain_place[1]) / env.terrain_place[2] + 0.5)
-    column = min(max(column, 0.0), columns - 1.0)
-    row = min(max(row, 0.0), rows - 1.0)
-    return bool(env.water[int(row), int(column)])
+    column = min(max(column, env.first_column), env.last_column)
+    row = min(max(row, env.first_row), env.last_row)
+    at_row, at_column = stored(env, row, column)
+    return bool(env.water[at_row, at_column])
 
 
 @kernel

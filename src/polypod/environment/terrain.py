@@ -7,7 +7,6 @@ the terrain's own, listed in `parts`, and a foot beside a riser is beside a trul
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,14 +15,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from polypod.environment import generators, geotiff, heightmaps, surfaces
-from polypod.environment.heightmaps import MOST_SAMPLES, BoolArray, FloatArray
+from polypod.environment import generators, geotiff, heightmaps, surfaces, tile_files
+from polypod.environment.heightmaps import MOST_SAMPLES
+from polypod.environment.lattice import BoolArray, FloatArray, IntArray, Lattice
 from polypod.environment.obstacles import LARGEST, Obstacle
+from polypod.environment.tiled import MEMORY, TILE, PlaceFunction, TiledTerrain, from_function
 from polypod.errors import SceneError
 
 
 @dataclass(frozen=True, eq=False)
-class Terrain:
+class Terrain(Lattice):
     """Heights in metres at the points of a square lattice.
 
     `heights` [rows, columns]: columns run along +x, rows along +z; `origin` is x, z of sample
@@ -85,15 +86,71 @@ class Terrain:
         return cls(np.full((2, 2), height), 1.0)
 
     @classmethod
+    def tiled(
+        cls,
+        height_of: PlaceFunction,
+        cell: float,
+        tile: int = TILE,
+        *,
+        origin: Sequence[float] = (0.0, 0.0),
+        water_of: PlaceFunction | None = None,
+        memory: float = MEMORY,
+    ) -> TiledTerrain:
+        """Return ground without an end, made tile by tile where creatures are.
+
+        Args:
+            height_of: from x [N] and z [N], world m, to heights [N], m. Each must follow from its
+                own x and z alone: neighbouring tiles ask for the samples between them both.
+            cell: metres between samples.
+            tile: samples along the side of what is made at once, a power of two.
+            origin: x, z of a sample.
+            water_of: from x [N] and z [N] to where no foot may stand, [N].
+            memory: MiB that all tiles together may take; who was not near for longest goes first.
+
+        Raises:
+            SceneError: a number is out of range, or what the function gives are no heights.
+        """
+        return from_function(height_of, cell, origin, water_of, tile, memory)
+
+    @classmethod
+    def from_tiles(
+        cls,
+        pattern: str | Path,
+        cell: float,
+        origin: Sequence[float] = (0.0, 0.0),
+        shared: bool = True,
+        water: str | Path | None = None,
+        memory: float = MEMORY,
+    ) -> TiledTerrain:
+        """Return the terrain of many .npy files of heights in metres, read where creatures are.
+
+        `pattern` is the files' path with `{column}` and `{row}` in the name: whole numbers, columns
+        along +x and rows along +z; together they fill a rectangle. Sample [0, 0] of tile 0, 0 is
+        at `origin`. With `shared`, neighbours both hold the samples along their common side.
+        `water` is a pattern of as many files, where samples that are not 0 are water.
+        """
+        return tile_files.from_tiles(pattern, cell, origin, shared, water, memory)
+
+    @classmethod
     def from_npy(
         cls,
         path: str | Path,
         cell: float,
         origin: Sequence[float] = (0.0, 0.0),
         water: str | Path | None = None,
-    ) -> Terrain:
-        """Return the terrain whose heights in metres are a two-dimensional .npy file."""
-        return _placed(path, heightmaps.read_npy(path), cell, origin, water)
+        memory: float | None = None,
+    ) -> Terrain | TiledTerrain:
+        """Return the terrain whose heights in metres are a two-dimensional .npy file.
+
+        A file too large to be held whole, or any with a `memory` in MiB, is read where creatures
+        are; its water is a .npy too.
+        """
+        heights = heightmaps.read_npy(path)
+        if memory is None and (heights.size <= MOST_SAMPLES or heights.ndim != 2):
+            return _placed(path, heights, cell, origin, water)
+        return tile_files.from_mapped(
+            path, heights, cell, origin, water, MEMORY if memory is None else memory
+        )
 
     @classmethod
     def from_png(
@@ -162,100 +219,79 @@ class Terrain:
     @classmethod
     def hills(cls, seed: int = 0, **keys: float) -> Terrain:
         """Return rolling hills: see `generators.hills` for the keys."""
-        return generated("hills", seed=seed, **keys)
+        return _finite("hills", seed=seed, **keys)
+
+    @classmethod
+    def endless_hills(cls, seed: int = 0, **keys: float) -> TiledTerrain:
+        """Return rolling hills without an end: see `generators.endless_hills` for the keys."""
+        made = generated("endless-hills", seed=seed, **keys)
+        assert isinstance(made, TiledTerrain)  # as that generator's are
+        return made
 
     @classmethod
     def rocks(cls, seed: int = 0, **keys: float) -> Terrain:
         """Return ground strewn with rounded rocks: see `generators.rocks` for the keys."""
-        return generated("rocks", seed=seed, **keys)
+        return _finite("rocks", seed=seed, **keys)
 
     @classmethod
     def stairs(cls, **keys: float) -> Terrain:
         """Return a flight of stairs up, along +z: see `generators.stairs` for the keys."""
-        return generated("stairs", **keys)
+        return _finite("stairs", **keys)
 
     @classmethod
     def steps(cls, seed: int = 0, **keys: float) -> Terrain:
         """Return a pavement of blocks of unequal height: see `generators.steps` for the keys."""
-        return generated("steps", seed=seed, **keys)
+        return _finite("steps", seed=seed, **keys)
 
     @classmethod
     def slope(cls, angle: float, **keys: float) -> Terrain:
         """Return an even slope up, along +z, of `angle` radians: see `generators.slope`."""
-        return generated("slope", angle=angle, **keys)
+        return _finite("slope", angle=angle, **keys)
 
     @classmethod
     def trenches(cls, seed: int = 0, **keys: float) -> Terrain:
         """Return level ground cut by trenches: see `generators.trenches` for the keys."""
-        return generated("trenches", seed=seed, **keys)
+        return _finite("trenches", seed=seed, **keys)
 
-    def height_at(self, x: float, z: float) -> float:
-        """Return the ground's height in metres, without the terrain's parts."""
-        return float(self.heights_at(np.array([[x, z]]))[0])
+    @property
+    def edge(self) -> tuple[int, int, int, int]:
+        """First row, first column, last row and last column."""
+        return 0, 0, self.heights.shape[0] - 1, self.heights.shape[1] - 1
 
-    def heights_at(self, points: FloatArray) -> FloatArray:
-        """Return the ground's heights [N] at plan points [N, 2] (x, z)."""
-        rows, columns = self.heights.shape
-        u = np.clip((points[:, 0] - self.origin[0]) / self.cell, 0, columns - 1)
-        v = np.clip((points[:, 1] - self.origin[1]) / self.cell, 0, rows - 1)
-        i, j = np.floor(v).astype(np.int64), np.floor(u).astype(np.int64)
-        below, right = np.minimum(i + 1, rows - 1), np.minimum(j + 1, columns - 1)
-        u, v = u - j, v - i
-        first = self.heights[i, j] * (1 - u) + self.heights[i, right] * u
-        second = self.heights[below, j] * (1 - u) + self.heights[below, right] * u
-        return np.asarray(first * (1 - v) + second * v)
+    @property
+    def wet(self) -> bool:
+        """Whether there is water anywhere."""
+        return self.water is not None and bool(np.any(self.water))
+
+    def samples_at(self, row: IntArray, column: IntArray) -> FloatArray:
+        """Return the heights [N] of samples [N], m."""
+        return np.asarray(self.heights[row, column])
+
+    def wet_at(self, row: IntArray, column: IntArray) -> BoolArray:
+        """Return which samples [N] are water."""
+        if self.water is None:
+            return np.zeros(len(row), np.bool_)
+        return np.asarray(self.water[row, column])
 
     def lowest_in(self, corners: FloatArray) -> float:
-        """Return the lowest ground in a convex polygon [V, 2] (x, z), turning from +x toward +z.
-
-        Between samples the ground is straight along x and along z, so it is lowest at a sample or
-        on the outline; a straight line meets it in parabolas between the sample lines.
-        """
+        """Return the lowest ground in a convex polygon [V, 2] (x, z), turning from +x toward +z."""
         if np.ptp(self.heights) == 0.0:
             return float(self.heights[0, 0])
-        ends = np.roll(corners, -1, axis=0)
-        lowest = min(self._lowest_along(a, b) for a, b in zip(corners, ends, strict=True))
-        rows, columns = self.heights.shape
-        first = np.maximum(np.ceil((corners.min(axis=0) - self.origin) / self.cell), 0)
-        last = np.floor((corners.max(axis=0) - self.origin) / self.cell)
-        last = np.minimum(last, (columns - 1, rows - 1))
-        axes = np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1)
-        samples = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 2).astype(np.int64)
-        place = samples * self.cell + self.origin
-        along = ends - corners
-        left = (place[:, None, 1] - corners[:, 1]) * along[:, 0]
-        left -= (place[:, None, 0] - corners[:, 0]) * along[:, 1]
-        within = np.all(left >= 0.0, axis=1)
-        found = self.heights[samples[within, 1], samples[within, 0]]
-        return min(lowest, float(np.min(found, initial=np.inf)))
-
-    def _lowest_along(self, start: FloatArray, end: FloatArray) -> float:
-        """Return the lowest ground on a straight line in plan."""
-        times = [np.array([0.0, 1.0])]
-        for axis in (0, 1):
-            one, other = sorted((start[axis], end[axis]))
-            if other > one:
-                first = math.ceil(max((one - self.origin[axis]) / self.cell, 0.0))
-                limit = self.heights.shape[1 - axis] - 1
-                last = math.floor(min((other - self.origin[axis]) / self.cell, limit))
-                lines = np.arange(first, last + 1) * self.cell + self.origin[axis]
-                times.append((lines - start[axis]) / (end[axis] - start[axis]))
-        knots = np.unique(np.clip(np.concatenate(times), 0.0, 1.0))
-        middles = 0.5 * (knots[:-1] + knots[1:])
-        at_knots = self.heights_at(start + knots[:, None] * (end - start))
-        at_middles = self.heights_at(start + middles[:, None] * (end - start))
-        # height(s) = c + b s + a s^2 for s from 0 to 1 in each stretch.
-        a = 2.0 * (at_knots[:-1] + at_knots[1:] - 2.0 * at_middles)
-        b = at_knots[1:] - at_knots[:-1] - a
-        valley = (a > 0.0) & (b < 0.0) & (-b < 2.0 * a)
-        bottom = at_knots[:-1][valley] - b[valley] ** 2 / (4.0 * a[valley])
-        return float(np.min(np.concatenate([at_knots, at_middles, bottom])))
+        return super().lowest_in(corners)
 
 
-def generated(generator: str, **keys: Any) -> Terrain:
+def generated(generator: str, **keys: Any) -> Terrain | TiledTerrain:
     """Return a generated terrain; raise SceneError for a generator or a key that does not exist."""
     made = generators.generate(generator, keys)
+    if isinstance(made, generators.Endless):
+        return from_function(made.height_of, made.cell, name=f"the terrain generator {generator}")
     return Terrain(made.heights, made.cell, made.origin, None, made.parts)
+
+
+def _finite(generator: str, **keys: Any) -> Terrain:
+    made = generated(generator, **keys)
+    assert isinstance(made, Terrain)  # the caller's generator has edges
+    return made
 
 
 def _placed(

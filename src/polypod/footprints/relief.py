@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from polypod.compute import kernel
+from polypod.environment.pages import stored
 from polypod.environment.table import EnvironmentTable, ground_height
 from polypod.footprints.settings import Tread
 
@@ -22,32 +23,32 @@ def terrain_spread(env: EnvironmentTable, tread: Tread) -> tuple[float, float]:
         tilt = abs(tread.slope_a) * tread.half_a + abs(tread.slope_b) * tread.half_b
         level = env.terrain_range[0] - tread.y
         return level - tilt, level + tilt
-    rows, columns = env.heights.shape
     x0 = env.terrain_place[0]
     z0 = env.terrain_place[1]
     cell = env.terrain_place[2]
     reach_x = tread.half_a * abs(tread.cosine) + tread.half_b * abs(tread.sine)
     reach_z = tread.half_a * abs(tread.sine) + tread.half_b * abs(tread.cosine)
-    left = _patch_of((tread.x - reach_x - x0) / cell, columns)
-    right = _patch_of((tread.x + reach_x - x0) / cell, columns)
-    top = _patch_of((tread.z - reach_z - z0) / cell, rows)
-    bottom = _patch_of((tread.z + reach_z - z0) / cell, rows)
+    left = _patch_of((tread.x - reach_x - x0) / cell, env.first_column, env.last_column)
+    right = _patch_of((tread.x + reach_x - x0) / cell, env.first_column, env.last_column)
+    top = _patch_of((tread.z - reach_z - z0) / cell, env.first_row, env.last_row)
+    bottom = _patch_of((tread.z + reach_z - z0) / cell, env.first_row, env.last_row)
     for row in range(top, bottom + 1):
         for column in range(left, right + 1):
-            if row >= 0 and column >= 0:
+            if row >= env.first_row and column >= env.first_column:
                 off_x = x0 + column * cell - tread.x
                 off_z = z0 + row * cell - tread.z
                 a = off_x * tread.cosine - off_z * tread.sine
                 b = off_x * tread.sine + off_z * tread.cosine
                 if abs(a) <= tread.half_a and abs(b) <= tread.half_b:
-                    gap = env.heights[row, column] - _plane(tread, a, b)
+                    at_row, at_column = stored(env, row, column)
+                    gap = env.heights[at_row, at_column] - _plane(tread, a, b)
                     least = min(least, gap)
                     most = max(most, gap)
             # Beyond the edge the outermost patches go on for ever.
-            low_x = x0 + column * cell if column >= 0 else -math.inf
-            high_x = x0 + (column + 1) * cell if column < columns - 1 else math.inf
-            low_z = z0 + row * cell if row >= 0 else -math.inf
-            high_z = z0 + (row + 1) * cell if row < rows - 1 else math.inf
+            low_x = x0 + column * cell if column >= env.first_column else -math.inf
+            high_x = x0 + (column + 1) * cell if column < env.last_column else math.inf
+            low_z = z0 + row * cell if row >= env.first_row else -math.inf
+            high_z = z0 + (row + 1) * cell if row < env.last_row else math.inf
             for side in range(4):
                 low, high = _along_side(env, tread, side, low_x, high_x, low_z, high_z)
                 least = min(least, low)
@@ -56,9 +57,9 @@ def terrain_spread(env: EnvironmentTable, tread: Tread) -> tuple[float, float]:
 
 
 @kernel
-def _patch_of(line: float, count: int) -> int:
-    """Return the patch of a coordinate in cells; -1 and count - 1 lie beyond the edge."""
-    return int(min(max(math.floor(line), -1.0), count - 1.0))
+def _patch_of(line: float, first: int, last: int) -> int:
+    """Return the patch of a coordinate in cells; `first` - 1 and `last` lie beyond the edge."""
+    return min(max(math.floor(line), first - 1), last)
 
 
 @kernel
@@ -130,7 +131,6 @@ def is_tread_wet(env: EnvironmentTable, tread: Tread) -> bool:
     """Say whether any of the foot's shape lies in water: each sample stands for a square cell."""
     if env.water.shape[0] == 0:
         return False
-    rows, columns = env.water.shape
     cell = env.terrain_place[2]
     middle_x = (tread.x - env.terrain_place[0]) / cell
     middle_z = (tread.z - env.terrain_place[1]) / cell
@@ -147,7 +147,12 @@ def is_tread_wet(env: EnvironmentTable, tread: Tread) -> bool:
         for column in range(
             math.floor(middle_x - reach_x + 0.5), math.floor(middle_x + reach_x + 0.5) + 1
         ):
-            if not env.water[min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)]:
+            at_row, at_column = stored(
+                env,
+                min(max(row, env.first_row), env.last_row),
+                min(max(column, env.first_column), env.last_column),
+            )
+            if not env.water[at_row, at_column]:
                 continue
             off_x = column - middle_x
             off_z = row - middle_z

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from polypod.environment.shapes import CYLINDER, SPHERE
-from polypod.environment.table import EnvironmentTable
+from polypod.environment.table import EnvironmentTable, TiledTable
 from polypod.report.arrays import FloatArray, conjugate_all, multiply_all, rotate_all
 from polypod.report.record import Recording
 
 BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.int64]
 
 
 class Ground:
@@ -161,19 +162,26 @@ class Ground:
 
 def terrain_height(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> FloatArray:
     """Return the terrain's height [N] over places of the plan: bilinear, level beyond its edges."""
-    rows, columns = environment.heights.shape
     x0, z0, cell = environment.terrain_place
-    u = np.clip((x - x0) / cell, 0.0, columns - 1.0)
-    v = np.clip((z - z0) / cell, 0.0, rows - 1.0)
-    column = np.minimum(u.astype(np.int64), max(columns - 2, 0))
-    row = np.minimum(v.astype(np.int64), max(rows - 2, 0))
-    right, below = np.minimum(column + 1, columns - 1), np.minimum(row + 1, rows - 1)
+    u = np.clip((x - x0) / cell, environment.first_column, environment.last_column)
+    v = np.clip((z - z0) / cell, environment.first_row, environment.last_row)
+    column = np.minimum(np.floor(u).astype(np.int64), environment.last_column - 1)
+    row = np.minimum(np.floor(v).astype(np.int64), environment.last_row - 1)
     u, v = u - column, v - row
-    samples = environment.heights
-    near = samples[row, column] * (1.0 - u) + samples[row, right] * u
-    far = samples[below, column] * (1.0 - u) + samples[below, right] * u
+    near = _samples(environment, row, column) * (1.0 - u)
+    near += _samples(environment, row, column + 1) * u
+    far = _samples(environment, row + 1, column) * (1.0 - u)
+    far += _samples(environment, row + 1, column + 1) * u
     height: FloatArray = near * (1.0 - v) + far * v
     return height
+
+
+def _samples(environment: EnvironmentTable, row: IntArray, column: IntArray) -> FloatArray:
+    """Return the terrain's heights [N] at samples: a tiled one's pages hold only some of them."""
+    if isinstance(environment, TiledTable):
+        return environment.ground.samples_at(row, column)
+    heights: FloatArray = environment.heights[row, column]
+    return heights
 
 
 def _interval(room: FloatArray, slope: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray]:

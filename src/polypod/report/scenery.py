@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.environment.shapes import SPHERE
-from polypod.environment.table import EnvironmentTable
+from polypod.environment.table import EnvironmentTable, TiledTable
 from polypod.report.arrays import FloatArray, conjugate_all, rotate_all, runs_of
 from polypod.report.ground import terrain_height
 from polypod.report.raster import Scene
@@ -71,20 +71,25 @@ def _lattice(
     least: float, most: float, origin: float, environment: EnvironmentTable, axis: int
 ) -> FloatArray:
     """Return coordinates at every n-th sample, so that the picture has the terrain's own edges."""
-    count, cell = environment.heights.shape[axis], float(environment.terrain_place[2])
+    cell = float(environment.terrain_place[2])
+    edges = ((environment.first_row, environment.last_row),
+             (environment.first_column, environment.last_column))  # fmt: skip
     first, last = math.floor((least - origin) / cell), math.ceil((most - origin) / cell)
     # Beyond its edges the ground is level across: nothing to sample there.
-    inner = np.arange(max(first, 0), min(last, count - 1) + 1)
+    inner = np.arange(max(first, edges[axis][0]), min(last, edges[axis][1]) + 1)
     inner = inner[:: max(1, -(-len(inner) // MOST_SAMPLES))]
     places: FloatArray = origin + cell * inner.astype(np.float64)
     return np.unique(np.concatenate([[least], places[(places > least) & (places < most)], [most]]))
 
 
 def _wet(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> NDArray[np.bool_]:
-    rows, columns = environment.water.shape
     x0, z0, cell = environment.terrain_place
-    column = np.clip(np.round((x - x0) / cell).astype(np.int64), 0, columns - 1)
-    row = np.clip(np.round((z - z0) / cell).astype(np.int64), 0, rows - 1)
+    column = np.round((x - x0) / cell).astype(np.int64)
+    row = np.round((z - z0) / cell).astype(np.int64)
+    column = np.clip(column, environment.first_column, environment.last_column)
+    row = np.clip(row, environment.first_row, environment.last_row)
+    if isinstance(environment, TiledTable):
+        return environment.ground.wet_at(row, column)
     wet: NDArray[np.bool_] = environment.water[row, column]
     return wet
 
