@@ -22,6 +22,7 @@ from polypod.environment.grown import (
 )
 from polypod.environment.maps import LocalMap, fill_maps, make_local_map
 from polypod.environment.table import EnvironmentTable, ground_height, is_wet, surface
+from polypod.reference import by_reference
 
 N = 24
 CELL = 0.05
@@ -38,7 +39,7 @@ def maps_of(
     n: int = N,
 ) -> LocalMap:
     window = make_local_map(n + 3)
-    fill_maps(env, window, centre[0], centre[1], CELL, n, *foot, 0.0)
+    fill_maps(env, by_reference(window), centre[0], centre[1], CELL, n, *foot, 0.0)
     return window
 
 
@@ -83,7 +84,7 @@ def sampled(
     x, z = np.meshgrid(np.linspace(0, 1, 6), np.linspace(0, 1, 6))
     places = np.column_stack([x.ravel(), z.ravel()])
     highest, lowest = np.zeros((n, n)), np.zeros((n, n))
-    sample(env, window, feet, places, highest, lowest)
+    sample(env, by_reference(window), feet, places, highest, lowest)
     return highest, lowest
 
 
@@ -105,7 +106,7 @@ OBSTACLES = {
 def test_grown_cells_are_those_that_a_foot_touches(
     name: str, foot: tuple[float, float, float]
 ) -> None:
-    env = Environment(Terrain.flat(BASE), [OBSTACLES[name]]).table
+    env = Environment(Terrain.flat(BASE), [OBSTACLES[name]]).kernel_table
     window = maps_of(env, foot)
     highest, lowest = sampled(env, window, rectangle(*foot, 9))
     # A sphere's top rises like a root at its rim: rounding there counts for more.
@@ -126,7 +127,7 @@ def test_grown_cells_are_those_that_a_foot_touches(
 def test_a_box_is_grown_exactly() -> None:
     """By hand: a box of half 1.95 x 2.95 cells and a foot of half 0.9 x 0.4, along the axes."""
     box = Obstacle.box((3.9 * CELL, 0.3, 5.9 * CELL), (0.0, 0.15, 0.0))
-    env = Environment(Terrain.flat(), [box]).table
+    env = Environment(Terrain.flat(), [box]).kernel_table
     window = maps_of(env, (0.9 * CELL, 0.4 * CELL, 0.0), (0.0, 0.0), 12)
     # Cell 6 begins at 0. Along x the grown box ends at 2.85 cells, along z at 3.35.
     assert window.kind[6, :12].tolist() == [0, 0, 0, 1, 2, 4, 4, 2, 1, 0, 0, 0]
@@ -139,7 +140,9 @@ def test_a_box_is_grown_exactly() -> None:
 
 
 def test_a_foot_on_top_finds_an_even_cell() -> None:
-    env = Environment(Terrain.flat(), [Obstacle.box((1.0, 0.3, 1.0), (0.0, 0.15, 0.0), 0.6)]).table
+    env = Environment(
+        Terrain.flat(), [Obstacle.box((1.0, 0.3, 1.0), (0.0, 0.15, 0.0), 0.6)]
+    ).kernel_table
     window = maps_of(env, (0.05, 0.1, 0.2), (0.0, 0.0))
     middle = N // 2
     assert window.highest[middle, middle] == pytest.approx(0.3)
@@ -152,7 +155,7 @@ def test_a_foot_on_top_finds_an_even_cell() -> None:
 @pytest.mark.parametrize("cell", [0.2, 0.05, 0.031, 0.008])
 def test_the_terrain_is_extreme_where_samples_say(cell: float) -> None:
     heights = np.random.default_rng(0).uniform(0, 0.3, (40, 35))
-    env = Environment(Terrain(heights, cell, (-0.5, -0.45))).table
+    env = Environment(Terrain(heights, cell, (-0.5, -0.45))).kernel_table
     window = maps_of(env)
     highest, lowest = window.highest[:N, :N], window.lowest[:N, :N]
     fine = np.linspace(0, 1, 41)
@@ -173,17 +176,17 @@ def test_the_terrain_is_extreme_where_samples_say(cell: float) -> None:
 
 
 def test_an_even_slope_is_no_edge_and_a_cliff_is() -> None:
-    slope = Environment(Terrain.slope(math.radians(40), length=20.0, start=-10.0)).table
+    slope = Environment(Terrain.slope(math.radians(40), length=20.0, start=-10.0)).kernel_table
     assert np.all(maps_of(slope).edge_distance[:N, :N] == N)
     cliff = Terrain(np.array([[0.0, 0.0], [0.0, 0.0], [0.3, 0.3], [0.3, 0.3]]), 0.02, (0.0, 0.0))
-    window = maps_of(Environment(cliff).table, centre=(0.0, 0.0))
+    window = maps_of(Environment(cliff).kernel_table, centre=(0.0, 0.0))
     assert np.all(window.edge_distance[N // 2, :N] == 0.0)
     assert np.allclose(window.edge_distance[N // 2 + 5, :N], 5.0)
 
 
 def test_distance_to_an_edge_is_near_the_true_one() -> None:
     pin = Obstacle.box((0.01, 0.2, 0.01), (0.03 + 0.5 * CELL, 0.1, -0.02 + 0.5 * CELL))
-    env = Environment(Terrain.flat(), [pin]).table
+    env = Environment(Terrain.flat(), [pin]).kernel_table
     window = maps_of(env, (0.0, 0.0, 0.0))
     middle = N // 2
     assert window.edge_distance[middle, middle] == 0.0
@@ -197,11 +200,11 @@ def test_forbidden_and_wet_cells() -> None:
     water = np.zeros((9, 9), np.bool_)
     water[2:4, 1:3] = True
     terrain = Terrain(np.zeros((9, 9)), 0.13, (-0.5, -0.5), water)
-    env = Environment(terrain, [forbidden]).table
+    env = Environment(terrain, [forbidden]).kernel_table
     window = maps_of(env)
     assert np.all((window.kind[:N, :N] == KIND_FORBIDDEN) == window.forbidden[:N, :N])
     assert np.all(window.edge_distance[:N, :N][window.forbidden[:N, :N]] == 0.0)
-    alone = Environment(Terrain.flat(), [forbidden]).table
+    alone = Environment(Terrain.flat(), [forbidden]).kernel_table
     assert np.all((maps_of(alone).highest[:N, :N] > 0.0) == window.forbidden[:N, :N])
     reach = rectangle(*FOOT, 9)
     wet_feet = 0
@@ -239,8 +242,10 @@ def test_moving_the_world_by_whole_cells_moves_the_map(
         )
         for crate in crates
     ]
-    before = maps_of(Environment(flat, crates).table, foot)
-    after = maps_of(Environment(flat, moved).table, foot, (0.03 + shift[0], -0.02 + shift[1]))
+    before = maps_of(Environment(flat, crates).kernel_table, foot)
+    after = maps_of(
+        Environment(flat, moved).kernel_table, foot, (0.03 + shift[0], -0.02 + shift[1])
+    )
     assert np.array_equal(before.kind[:N, :N], after.kind[:N, :N])
     assert np.array_equal(before.forbidden[:N, :N], after.forbidden[:N, :N])
     assert np.array_equal(before.edge_distance[:N, :N], after.edge_distance[:N, :N])
@@ -261,8 +266,8 @@ def test_a_quarter_turn_of_the_world_turns_the_map(seed: int, quarter: int, yaw:
         cosine, sine = round(math.cos(angle)), round(math.sin(angle))
         place = (x * cosine + z * sine, y, -x * sine + z * cosine)
         turned.append(Obstacle.box(crate.size, place, own + angle, crate.forbidden))
-    before = maps_of(Environment(None, crates).table, (0.03, 0.07, yaw), (0.0, 0.0))
-    after = maps_of(Environment(None, turned).table, (0.03, 0.07, yaw + angle), (0.0, 0.0))
+    before = maps_of(Environment(None, crates).kernel_table, (0.03, 0.07, yaw), (0.0, 0.0))
+    after = maps_of(Environment(None, turned).kernel_table, (0.03, 0.07, yaw + angle), (0.0, 0.0))
     # Turning +Z toward +X takes rows toward columns.
     kinds = np.rot90(after.kind[:N, :N], -quarter)
     assert np.mean(before.kind[:N, :N] != kinds) <= 0.01  # a corner on a cell's side may go astray
@@ -271,7 +276,7 @@ def test_a_quarter_turn_of_the_world_turns_the_map(seed: int, quarter: int, yaw:
 
 
 def test_stairs_are_even_on_their_treads() -> None:
-    env = Environment(Terrain.stairs(rise=0.075, run=0.4, count=6, start=-0.5)).table
+    env = Environment(Terrain.stairs(rise=0.075, run=0.4, count=6, start=-0.5)).kernel_table
     window = maps_of(env, (0.02, 0.03, 0.0))
     rises = window.highest[:N, :N] - window.lowest[:N, :N]
     assert set(np.round(np.unique(rises), 9)) == {0.0, 0.075}

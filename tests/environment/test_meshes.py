@@ -115,7 +115,7 @@ def test_a_table_needs_no_library_and_feet_stand_on_top(
     monkeypatch.setattr(convex_parts, "find_spec", lambda name: None)
     obstacle = dataclasses.replace(solid(tmp_path, table()), position=(0.0, 0.175, 0.0))
     assert len(obstacle.parts) == 5
-    env = Environment(obstacles=[Obstacle.box((1, 1, 1), (9, 0, 9)), obstacle]).table
+    env = Environment(obstacles=[Obstacle.box((1, 1, 1), (9, 0, 9)), obstacle]).kernel_table
     # The highest surface counts, over the legs and between them, and it is one obstacle.
     for x, z in ((0.0, 0.0), (0.38, 0.23), (-0.38, 0.0)):
         assert surface(env, x, z) == (pytest.approx(0.35), 1)
@@ -147,7 +147,7 @@ def test_concave_meshes_keep_their_hollows(tmp_path: Path, name: str) -> None:
     again = solid(tmp_path, mesh)
     assert 2 <= len(obstacle.parts) <= 32
     assert obstacle == again
-    env = Environment(obstacles=[obstacle]).table
+    env = Environment(obstacles=[obstacle]).kernel_table
     middle = 0.5 * (mesh[0].min(axis=0) + mesh[0].max(axis=0))
     inside = wrong = 0
     for x, z in np.random.default_rng(0).uniform(-0.55, 0.55, (400, 2)):

@@ -70,7 +70,7 @@ def as_they_will_be(
             )
             for obstacle, place in zip(moving, there, strict=True)
         ]
-    ).table
+    ).kernel_table
 
 
 def spun(rotation: tuple[float, ...], angle: float) -> tuple[float, float, float, float]:
@@ -102,16 +102,18 @@ def test_questions_are_answered_as_for_obstacles_that_stand_there(
     env.advance(time)
     still = as_they_will_be(env, moving, time, ahead)
     height, support = surface(still, x, z)
-    assert surface_at(env.table, x, z, ahead) == (pytest.approx(height, abs=1e-9), support)
+    assert surface_at(env.kernel_table, x, z, ahead) == (pytest.approx(height, abs=1e-9), support)
     deep, _ = penetration_at(still, Vec3(x, 0.05, z), 0.0)
-    depth, _ = penetration_at(env.table, Vec3(x, 0.05, z), ahead)
+    depth, _ = penetration_at(env.kernel_table, Vec3(x, 0.05, z), ahead)
     # Outside, how near is only told within a bucket.
     assert max(depth, 0.0) == pytest.approx(max(deep, 0.0), abs=1e-9)
-    assert max(mover_depth(env.table, Vec3(x, 0.05, z), ahead, -1), 0.0) == pytest.approx(
+    assert max(mover_depth(env.kernel_table, Vec3(x, 0.05, z), ahead, -1), 0.0) == pytest.approx(
         max(penetration_at(still, Vec3(x, 0.05, z), 0.0)[0], 0.0), abs=1e-9
     )
-    assert is_forbidden_at(env.table, x, z, 0.1, ahead) == is_forbidden_at(still, x, z, 0.1, 0.0)
-    normal = surface_normal_at(env.table, x, z, ahead)
+    assert is_forbidden_at(env.kernel_table, x, z, 0.1, ahead) == is_forbidden_at(
+        still, x, z, 0.1, 0.0
+    )
+    normal = surface_normal_at(env.kernel_table, x, z, ahead)
     assert normal == pytest.approx(surface_normal_at(still, x, z, 0.0), abs=1e-9)
 
 
@@ -122,7 +124,7 @@ def test_a_turn_of_the_way_is_foreseen(time: float, ahead: float) -> None:
     env.advance(time)
     later.advance(time + ahead)
     x, _, z = later.places()[0]
-    assert surface_at(env.table, x, z, ahead) == (pytest.approx(0.2), 0)
+    assert surface_at(env.kernel_table, x, z, ahead) == (pytest.approx(0.2), 0)
 
 
 @pytest.mark.parametrize(
@@ -143,15 +145,15 @@ def test_the_way_out_is_short_and_never_down(obstacle: Obstacle) -> None:
     inside = shortest = 0
     for offset in random.uniform(-0.25, 0.25, (200, 3)):
         point = Vec3(*(np.array([3.0, 0.3, -2.0]) + offset).tolist())
-        depth = mover_depth(env.table, point, 0.0, -1)
-        free = clear_of_movers(env.table, point, 0.0, -1)
-        assert clear_of_movers(env.table, point, 0.0, 0) == point
+        depth = mover_depth(env.kernel_table, point, 0.0, -1)
+        free = clear_of_movers(env.kernel_table, point, 0.0, -1)
+        assert clear_of_movers(env.kernel_table, point, 0.0, 0) == point
         if depth <= 0.0:
             assert free == point
             continue
         inside += 1
         assert math.dist(free, point) >= depth - 1e-9
-        assert mover_depth(env.table, free, 0.0, -1) == pytest.approx(0.0, abs=1e-9)
+        assert mover_depth(env.kernel_table, free, 0.0, -1) == pytest.approx(0.0, abs=1e-9)
         assert free.y >= point.y - 0.5 * math.dist(free, point) - 1e-9
         shortest += abs(math.dist(free, point) - depth) < 1e-9
     assert inside > 20
@@ -161,10 +163,10 @@ def test_the_way_out_is_short_and_never_down(obstacle: Obstacle) -> None:
 def test_what_is_moved_is_there_after_the_next_step() -> None:
     env = Environment(obstacles=[BOX], movable=True)
     env.move(0, (5.0, 0.1, 1.0), (0.0, 0.0, 0.4))
-    assert surface(env.table, 5.0, 1.0)[1] == -1
+    assert surface(env.kernel_table, 5.0, 1.0)[1] == -1
     env.advance(0.1)
-    assert surface(env.table, 5.0, 1.0) == (pytest.approx(0.2), 0)
-    assert surface_at(env.table, 5.0, 1.4, 1.0) == (pytest.approx(0.2), 0)
+    assert surface(env.kernel_table, 5.0, 1.0) == (pytest.approx(0.2), 0)
+    assert surface_at(env.kernel_table, 5.0, 1.4, 1.0) == (pytest.approx(0.2), 0)
     assert env.table.step[0] == pytest.approx([5.0, 0.0, 1.0])
     env.advance(0.2)
     assert env.table.step[0] == pytest.approx([0.0, 0.0, 0.0])
@@ -234,14 +236,14 @@ def test_solids_of_all_kinds_turn_about_their_positions(
     for off in random.uniform(-0.4, 0.4, (20, 3)):
         point = Vec3(*(middle + off).tolist())
         height, support = surface(still, point.x, point.z)
-        assert surface_at(env.table, point.x, point.z, ahead) == (
+        assert surface_at(env.kernel_table, point.x, point.z, ahead) == (
             pytest.approx(height, abs=1e-9),
             support,
         )
         deep, _ = penetration_at(still, point, 0.0)
-        depth, _ = penetration_at(env.table, point, ahead)
+        depth, _ = penetration_at(env.kernel_table, point, ahead)
         assert max(depth, 0.0) == pytest.approx(max(deep, 0.0), abs=1e-9)
-        normal = surface_normal_at(env.table, point.x, point.z, ahead)
+        normal = surface_normal_at(env.kernel_table, point.x, point.z, ahead)
         assert normal == pytest.approx(surface_normal_at(still, point.x, point.z, 0.0), abs=1e-7)
 
 
@@ -257,7 +259,7 @@ def test_maps_show_what_turns_as_it_is_turned(time: float, seed: int) -> None:
     still = as_they_will_be(env, moving, time, 0.0)
     seen, expected = make_local_map(40), make_local_map(40)
     yaw = float(random.uniform(-3.0, 3.0))
-    for table, window in ((env.table, seen), (still, expected)):
+    for table, window in ((env.kernel_table, seen), (still, expected)):
         fill_maps(table, window, 0.0, 0.0, 0.05, 40, 0.03, 0.05, yaw, 0.0)
     # A cell that is only just touched may go either way by rounding.
     other = np.abs(seen.highest - expected.highest) > 1e-6
@@ -272,20 +274,20 @@ def test_parts_of_a_mesh_are_one_obstacle() -> None:
     env.move(1, (3.0, 0.1, -2.0), (0.1, 0.0, 0.0), turned=0.5 * math.pi, turn_rate=0.4)
     env.advance(0.0)
     # Turned by a quarter, what was at +x is at -z.
-    assert surface(env.table, 3.0, -2.25) == (pytest.approx(0.2), 1)
-    assert surface(env.table, 3.0, -1.75) == (pytest.approx(0.2), 1)
-    assert surface(env.table, 3.25, -2.0)[1] == -1
+    assert surface(env.kernel_table, 3.0, -2.25) == (pytest.approx(0.2), 1)
+    assert surface(env.kernel_table, 3.0, -1.75) == (pytest.approx(0.2), 1)
+    assert surface(env.kernel_table, 3.25, -2.0)[1] == -1
     assert env.rotations[1] == pytest.approx((0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)))
     assert env.places()[1] == pytest.approx((3.0, 0.1, -2.0))
     # In the seam between parts nothing is in the way of a foot that stands on one.
     inside = Vec3(3.0, 0.15, -2.25)
-    assert mover_depth(env.table, inside, 0.0, -1) > 0.0
-    assert mover_depth(env.table, inside, 0.0, 1) < 0.0
+    assert mover_depth(env.kernel_table, inside, 0.0, -1) > 0.0
+    assert mover_depth(env.kernel_table, inside, 0.0, 1) < 0.0
     # Left out, the turn stays as it is, also before it has come about.
     env.move(1, (5.0, 0.1, -2.0), turned=-0.5 * math.pi)
     env.move(1, (4.0, 0.1, -2.0))
     env.advance(0.1)
-    assert surface(env.table, 4.0, -2.25) == (pytest.approx(0.2), 1)
+    assert surface(env.kernel_table, 4.0, -2.25) == (pytest.approx(0.2), 1)
     with pytest.raises(SceneError, match="turned by"):
         env.move(1, (0.0, 0.0, 0.0), turned=math.nan)
     with pytest.raises(SceneError, match="turn_rate"):

@@ -31,7 +31,7 @@ DEEP = Terrain.flat(-50.0)
 
 
 def table_of(*obstacles: Obstacle, terrain: Terrain = DEEP) -> EnvironmentTable:
-    return Environment(terrain, obstacles).table
+    return Environment(terrain, obstacles).kernel_table
 
 
 def turned(seed: int) -> tuple[float, float, float, float]:

@@ -83,7 +83,7 @@ def test_nothing_is_ground_beside_the_mesh(tmp_path: Path) -> None:
     assert terrain.water is not None
     assert np.array_equal(terrain.water, outside)
     assert np.allclose(terrain.heights, np.where(outside, 1.0, 1.0 + z))
-    table = Environment(terrain).table
+    table = Environment(terrain).kernel_table
     assert is_wet(table, 2.0, 2.0)
     assert not is_wet(table, 0.5, 0.5)
     assert surface(table, 0.5, 0.5) == pytest.approx((1.5, -1))

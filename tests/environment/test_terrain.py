@@ -22,7 +22,9 @@ from polypod.math.vec3 import Vec3
 
 
 def test_stairs_have_vertical_risers_and_level_treads() -> None:
-    env = Environment(Terrain.stairs(rise=0.1, run=0.3, count=5, start=1.0, landing=2.0)).table
+    env = Environment(
+        Terrain.stairs(rise=0.1, run=0.3, count=5, start=1.0, landing=2.0)
+    ).kernel_table
     for step in range(5):
         riser = 1.0 + 0.3 * step
         assert surface(env, 0.2, riser - 1e-9)[0] == pytest.approx(0.1 * step)
@@ -38,7 +40,7 @@ def test_stairs_have_vertical_risers_and_level_treads() -> None:
 
 def test_stairs_lead_down_again() -> None:
     terrain = Terrain.stairs(rise=0.1, run=0.3, count=4, start=1.0, landing=2.0, down=True)
-    env = Environment(terrain).table
+    env = Environment(terrain).kernel_table
     middle = 1.0 + 3 * 0.3 + 1.0
     for off in (0.5, 1.05, 1.35, 1.65, 1.95, 3.0):
         assert surface(env, 0.0, middle + off)[0] == pytest.approx(
@@ -52,7 +54,7 @@ def test_trenches_have_vertical_sides_and_ground_between() -> None:
     terrain = Terrain.trenches(
         seed=4, narrowest=0.1, widest=0.3, apart=0.8, depth=1.5, count=6, width=4.0, start=2.0
     )
-    env = Environment(terrain).table
+    env = Environment(terrain).kernel_table
     edges = [(p.position[2] - 0.5 * p.size[2], p.position[2] + 0.5 * p.size[2])
              for p in terrain.parts]  # fmt: skip
     assert len(edges) == 7
@@ -108,7 +110,7 @@ def test_rocks_stay_below_their_height() -> None:
 
 def test_steps_have_random_level_tops() -> None:
     terrain = Terrain.steps(seed=3, rise=0.1, run=0.5, size=3.0, start=0.0)
-    env = Environment(terrain).table
+    env = Environment(terrain).kernel_table
     tops = [surface(env, 0.5 * i - 1.25, 0.5 * j + 0.25)[0] for i in range(6) for j in range(6)]
     assert len(terrain.parts) == 36
     assert len(set(tops)) == 36
@@ -120,8 +122,8 @@ def test_parts_of_the_terrain_come_after_the_obstacles() -> None:
     crate = Obstacle.box((0.1, 0.1, 0.1), (0.0, 0.05, 0.0))
     place = Environment(Terrain.stairs(start=1.0, run=0.3), [crate])
     assert place.obstacles[0] is crate
-    assert surface(place.table, 0.0, 0.0)[1] == 0
-    assert surface(place.table, 0.0, 1.1)[1] == 1
+    assert surface(place.kernel_table, 0.0, 0.0)[1] == 0
+    assert surface(place.kernel_table, 0.0, 1.1)[1] == 1
     assert place.table is place.table
 
 
@@ -147,7 +149,7 @@ def test_impossible_terrain_is_refused(heights: Any, cell: float, origin: Any, w
 
 
 def test_a_terrain_of_one_sample_is_level() -> None:
-    env = Environment(Terrain(np.array([[0.4]]), 0.1, water=np.array([[True]]))).table
+    env = Environment(Terrain(np.array([[0.4]]), 0.1, water=np.array([[True]]))).kernel_table
     assert surface(env, 3.0, -5.0) == (0.4, -1)
     assert is_wet(env, 3.0, -5.0)
 

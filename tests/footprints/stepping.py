@@ -16,6 +16,7 @@ from polypod.math.vec3 import Vec3
 from polypod.morphology.load import load_rig
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import path_point, path_store
+from polypod.reference import by_reference
 
 LEG = 0.5
 STRIDE = 0.25
@@ -57,10 +58,13 @@ def ask(env, start, preferred, leg=LEG, stride=STRIDE, side=1.0, **changes):
     return request._replace(**changes)
 
 
-def plan(env, request, settings=SETTINGS, scratch=SCRATCH):
+KERNEL_SCRATCH = by_reference(SCRATCH)
+
+
+def plan(env, request, settings=SETTINGS):
     """Return whether a pair was found, its score and its path."""
     path = path_store()
-    found, score = plan_step(env, settings, scratch, request, path)
+    found, score = plan_step(env, by_reference(settings), KERNEL_SCRATCH, request, path)
     return found, score, path
 
 
@@ -98,7 +102,7 @@ def crates(seed, forbidden=0.0, count=45):
         seed,
         forbidden,
     )
-    return Environment(flat, boxes).table
+    return Environment(flat, boxes).kernel_table
 
 
 def walk(env, seed, steps, settings=SETTINGS):

@@ -48,7 +48,7 @@ def factor(share, heading=0.0):
     own, other = (load_vec3(SPIDER.legs.sole_stance[k]) for k in (3, 5))
     place = Vec3(1.0, 2.0, 3.0) + rotate(turn, own + (other - own) * share)
     length = float(SPIDER.legs.length[3])
-    env = Environment().table
+    env = Environment().kernel_table
     request = ask(env, place, place)._replace(leg_length=length)
     return place_factor(ahead, request, place)
 

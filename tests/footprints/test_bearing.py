@@ -19,11 +19,13 @@ from polypod.footprints.scratch import ground_scratch
 from polypod.footprints.settings import PlanSettings, placed_shape
 from polypod.math.vec3 import Vec3
 from polypod.paths.near import obstacles_near
+from polypod.reference import by_reference
 from polypod.report.ground import Ground
 
 LEG = 0.5
 PLAN = PlanSettings()
 SCRATCH = ground_scratch()
+KERNEL_SCRATCH = by_reference(SCRATCH)
 FLAT = Terrain.flat()
 
 
@@ -33,12 +35,13 @@ def shape(half_x, half_z, yaw):
 
 def stand(env, foot, x, z, leg=LEG):
     """Return the tread at a place, whether eight samples allow it, and whether it is borne."""
+    env = by_reference(env)
     height, _ = surface(env, x, z)
     tread, rough = lay_tread(env, PLAN, foot, leg, Vec3(x, height, z), 0.0)
     even = even_score(env, tread, rough, PLAN.slope) >= 0.0
     wide = 2.0 * (foot.radius + PLAN.toe * leg)
     count = obstacles_near(env, x - wide, z - wide, x + wide, z + wide, -1e300, SCRATCH.near)
-    return tread, even, is_borne(env, tread, count, SCRATCH)
+    return tread, even, is_borne(env, tread, count, KERNEL_SCRATCH)
 
 
 def gaps(env, tread, grow, count=41):
@@ -177,7 +180,7 @@ def test_the_terrain_under_a_foot_is_bounded_exactly(seed, x, z, yaw, cell):
     env = Environment(terrain).table
     foot = shape(*random.uniform(0.01, 0.2, 2), yaw)
     tread, _, _ = stand(env, foot, x, z)
-    least, most = terrain_spread(env, tread)
+    least, most = terrain_spread(by_reference(env), tread)
     _, above = gaps(env, tread, 0.0, 61)
     assert above.min() >= least - 1e-9
     assert above.max() <= most + 1e-9
@@ -245,6 +248,6 @@ def test_no_part_of_a_foot_is_in_a_puddle(yaw, x, z):
     off_z = z - a * foot.sine + b * foot.cosine
     sampled = bool(np.any((np.abs(off_x) < 0.025) & (np.abs(off_z) < 0.025)))
     if sampled:
-        assert is_foot_wet(env, foot, x, z)
+        assert is_foot_wet(by_reference(env), foot, x, z)
     elif not np.any((np.abs(off_x) < 0.03) & (np.abs(off_z) < 0.03)):
-        assert not is_foot_wet(env, foot, x, z)
+        assert not is_foot_wet(by_reference(env), foot, x, z)

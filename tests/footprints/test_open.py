@@ -16,7 +16,7 @@ from polypod.footprints.beside import is_open
 from polypod.footprints.scratch import TALLY_CANDIDATES
 from polypod.math.vec3 import Vec3, store_vec3
 
-OPEN = Environment().table
+OPEN = Environment().kernel_table
 WANTED = Vec3(0.013, 0.0, 0.2417)
 # A leg across the way, that is gone around.
 FENCE = ((-0.1, 0.06), (0.3, 0.1))
@@ -59,7 +59,7 @@ def test_a_crate_anywhere_near_is_not_open(angle, away):
     def beside(distance):
         x = request.preferred_world.x + distance * math.sin(angle)
         z = request.preferred_world.z + distance * math.cos(angle)
-        return Environment(obstacles=[Obstacle.box((0.02, 0.1, 0.02), (x, 0.05, z))]).table
+        return Environment(obstacles=[Obstacle.box((0.02, 0.1, 0.02), (x, 0.05, z))]).kernel_table
 
     assert not is_open(beside(0.5 * reach), request, near)
     assert not is_open(beside(reach), request, near)

@@ -17,7 +17,7 @@ from polypod.footprints.scratch import TALLY_DIRECT, TALLY_PATHS
 from polypod.math.quat import from_heading, rotate
 from polypod.math.vec3 import Vec3, store_vec3
 
-OPEN = Environment().table
+OPEN = Environment().kernel_table
 ORIGIN = Vec3(0.0, 0.0, 0.0)
 
 
@@ -70,10 +70,10 @@ def test_open_ground_knows_no_grid(heading, x, z, mirror):
 def test_all_sizes_plan_alike(leg):
     scale = leg / LEG
     box = Obstacle.box((0.2 * scale, 0.1 * scale, 0.1 * scale), (0.0, 0.05 * scale, 0.1 * scale))
-    env = Environment(obstacles=[box]).table
+    env = Environment(obstacles=[box]).kernel_table
     request = ask(env, ORIGIN, Vec3(0.0, 0.0, 0.25 * scale), leg=leg, stride=STRIDE * scale)
     found, score, path = plan(env, request)
-    same = Environment(obstacles=[Obstacle.box((0.2, 0.1, 0.1), (0.0, 0.05, 0.1))]).table
+    same = Environment(obstacles=[Obstacle.box((0.2, 0.1, 0.1), (0.0, 0.05, 0.1))]).kernel_table
     _, expected_score, expected = plan(same, ask(same, ORIGIN, Vec3(0.0, 0.0, 0.25)))
     assert found
     assert score == pytest.approx(expected_score, rel=1e-9)
@@ -142,7 +142,7 @@ def test_a_wall_that_is_too_high_is_gone_around_and_a_low_one_stepped_over():
     sides = {}
     for height in (0.03, 0.45):
         wall = Obstacle.box((0.24, height, 0.04), (0.05, 0.5 * height, 0.12))
-        env = Environment(obstacles=[wall]).table
+        env = Environment(obstacles=[wall]).kernel_table
         request = ask(env, ORIGIN, Vec3(0.0, 0.0, 0.25))
         found, _, path = plan(env, request)
         assert found
@@ -156,7 +156,7 @@ def test_a_wall_that_is_too_high_is_gone_around_and_a_low_one_stepped_over():
 
 def test_nothing_is_found_where_everything_is_forbidden():
     block = Obstacle.box((4.0, 0.1, 4.0), (0.0, 0.05, 2.1), forbidden=True)
-    env = Environment(obstacles=[block]).table
+    env = Environment(obstacles=[block]).kernel_table
     request = ask(env, ORIGIN, Vec3(0.0, 0.0, 0.25), stride=0.1, search_radius=0.1)
     found, score, path = plan(env, request)
     assert not found
@@ -173,7 +173,7 @@ def test_water_is_passed_over_but_not_stood_in():
     water = np.zeros((41, 41), np.bool_)
     water[22:25] = True  # a stream across, from z = 0.125 to 0.275
     terrain = Terrain(heights, 0.05, (-1.0, -0.95), water=water)
-    env = Environment(terrain).table
+    env = Environment(terrain).kernel_table
     assert is_wet(env, 0.0, 0.2)
     found, _, path = plan(env, ask(env, ORIGIN, Vec3(0.0, 0.0, 0.265)))
     points = sample(path)
@@ -216,7 +216,7 @@ def test_a_replanned_swing_goes_on_as_it_was():
 
 def test_feet_stand_well_inside_treads_of_stairs():
     terrain = generated("stairs", rise=0.15 * LEG, run=0.25)
-    env = Environment(terrain).table
+    env = Environment(terrain).kernel_table
     landed = 0
     for request, found, path in walk(env, 3, 10):
         assert found
@@ -232,7 +232,7 @@ def test_feet_stand_well_inside_treads_of_stairs():
 
 @pytest.mark.parametrize("angle", [-0.4, 0.4])
 def test_slopes_are_walked_without_touching(angle):
-    env = Environment(generated("slope", angle=angle)).table
+    env = Environment(generated("slope", angle=angle)).kernel_table
     for _, found, path in walk(env, 1, 12):
         assert found
         assert SCRATCH.tally[TALLY_DIRECT] == 1
@@ -244,7 +244,7 @@ def test_slopes_are_walked_without_touching(angle):
 
 def test_a_speed_limit_sends_long_detours_elsewhere():
     wall = Obstacle.box((0.3, 0.6, 0.04), (0.0, 0.3, 0.12))
-    env = Environment(obstacles=[wall]).table
+    env = Environment(obstacles=[wall]).kernel_table
     request = ask(env, ORIGIN, Vec3(0.0, 0.0, 0.25), search_radius=0.3)
     _, _, free = plan(env, request)
     limit = 0.6 * 1.875 * free.length[0] / request.swing_seconds
