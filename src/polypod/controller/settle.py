@@ -211,7 +211,14 @@ def advance_swings(
             state.waiting[c, k] += dt
             if env.mover_count > 0:
                 here = load_vec3(state.foot[c, k])
-                store_vec3(state.foot[c, k], pushed_aside(c, k, dt, here, here, state, tables, env))
+                here = pushed_aside(c, k, dt, here, here, state, tables, env)
+                # A body that is carried away by what it stands on takes its feet in the air along.
+                position = load_vec3(state.position[c])
+                turn = load_quat(state.rotation[c])
+                foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+                bend = state.foot_bend[c, k, 0]
+                here = here + foot_shift(k, tables, here, foot_turn, bend, position, turn)
+                store_vec3(state.foot[c, k], here)
             continue
         state.waiting[c, k] = 0.0
         state.swing_progress[c, k] = scratch.progress[k]
