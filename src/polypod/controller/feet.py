@@ -23,8 +23,9 @@ from polypod.math.vec3 import Vec3, load_vec3, normalized, store_vec3
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
 # Where no path is found, a lower one may pass under the leg's shortest reach: its sole then clears
-# uneven ground, but not the whole foot.
-STEP_SHARES = (1.0, 0.35)
+# uneven ground, but not the whole foot. The last is for what moves: it is not asked whether the
+# chords between its frames are free, for a foot goes less far in a frame where they are not.
+STEP_SHARES = (1.0, 0.35, 1.0)
 
 
 @kernel
@@ -90,7 +91,8 @@ def plan_foot(
             c, k, others, start, preferred, touchdown, errand.radius, state, tables, scratch
         )
     found = False
-    for attempt in range(len(STEP_SHARES)):
+    attempts = len(STEP_SHARES) if env.mover_count > 0 else len(STEP_SHARES) - 1
+    for attempt in range(attempts):
         request = StepRequest(
             start,
             errand.velocity,
@@ -113,7 +115,7 @@ def plan_foot(
             math.inf,
             errand.radius,
             others,
-            dt,
+            dt if attempt < len(STEP_SHARES) - 1 else 0.0,
             errand.launch,
             level_height(c, preferred.x, preferred.z, state),
             stance,
