@@ -72,11 +72,9 @@ def foot_later(
     extent = state.swing_extent[c, k]
     if rate <= 0.0 or extent <= 0.0:
         return here
-    wait = 0.0
-    if swing_progress(state.needle[c], state.swing_start[c, k], extent) < 0.0:
-        wait = wrap_phase(state.swing_start[c, k] - state.needle[c]) / rate
-    else:
+    if swing_progress(state.needle[c], state.swing_start[c, k], extent) >= 0.0:
         return here  # its turn has come, and it found no place yet
+    wait = wrap_phase(state.swing_start[c, k] - state.needle[c]) / rate
     if seconds <= wait:
         return here
     share = min((seconds - wait) * rate / extent, 1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 
 
-class Lattice:
+class Lattice(ABC):
     """What every terrain is: columns run along +x, rows along +z.
 
     `origin` is x, z of sample [0, 0], `cell` the metres between samples. Beyond its edges, if it
@@ -24,22 +25,22 @@ class Lattice:
     origin: tuple[float, float]
 
     @property
+    @abstractmethod
     def edge(self) -> tuple[int, int, int, int]:
         """First row, first column, last row and last column."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def wet(self) -> bool:
         """Whether there is water anywhere."""
-        raise NotImplementedError
 
+    @abstractmethod
     def samples_at(self, row: IntArray, column: IntArray) -> FloatArray:
         """Return the heights [N] of samples [N], m."""
-        raise NotImplementedError
 
+    @abstractmethod
     def wet_at(self, row: IntArray, column: IntArray) -> BoolArray:
         """Return which samples [N] are water."""
-        raise NotImplementedError
 
     def height_at(self, x: float, z: float) -> float:
         """Return the ground's height in metres, without the terrain's parts."""

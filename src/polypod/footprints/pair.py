@@ -52,10 +52,11 @@ def try_pair(
         pair = (1.0 - settings.weight_path) * place_score + settings.weight_path * quality
         if pair <= best or out_of_reach(request, settings.reach, trial):
             return NOTHING, 0.0
+        if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
+            return NOTHING, 0.0
+        # It poses legs: after what costs less to find out.
         pair *= path_factor(legs_ahead, request, trial)
         if pair <= best:
-            return NOTHING, 0.0
-        if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
             return NOTHING, 0.0
         if deepest(env, settings.penetration * leg, request, trial, lift.extra) <= 0.0:
             if not chords_clear(env, settings.chord * leg, request, trial):

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from polypod.report.arrays import FloatArray
+from polypod.report.joints import leg_rows
 from polypod.report.record import Recording
 
 
@@ -20,10 +21,7 @@ class Room(NamedTuple):
 
 def leg_places(recording: Recording, leg: int) -> FloatArray:
     """Return [F, N + 1, 3] the ends of a leg's N sections, hip first, the sole last; world, m."""
-    legs = recording.morphology.legs
-    rows = [int(row) for row in legs.joint[leg, : legs.joint_count[leg]]]
-    if legs.foot_joint[leg] >= 0:
-        rows.append(int(legs.foot_joint[leg]))
+    rows = leg_rows(recording.morphology.legs, leg)
     sole = recording.foot_position[:, leg, None]
     return np.concatenate([recording.joint_position[:, rows], sole], axis=1)
 
