@@ -84,7 +84,8 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any) -> No
         state.judged[c, 2] = 0.0
     halted = state.halted[c] > 0.0
     state.halted[c] = max(state.halted[c] - dt, 0.0)
-    state.judged[c, 2] += dt
+    if state.caught[c] == 0:
+        state.judged[c, 2] += dt
     if halted or does in (ARRIVED, BLOCKED) or command.speed[c] <= 0.0:
         state.judged[c, 2] = 0.0
     # Who has halted is judged from where that was: to shuffle to and fro there is no headway.
