@@ -117,7 +117,7 @@ def settle_creatures(
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
         reach_feet(c, seconds, state, command, tables)
-        note_headway(c, seconds, state, command, tables)
+        note_headway(c, seconds, state, command, tables, env)
         note_activity(c, state, command, tables)
 
 

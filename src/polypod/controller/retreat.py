@@ -12,17 +12,18 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.rest import rest_offset
 
-# A foot is caught that could not go on for so many cycles, and is free once it has landed, or after
-# so many leg pendulum times: then something else is in the way.
+# A foot is caught that found no place for so many cycles, or could not go on in the air. It is free
+# once it has landed, or after so many leg pendulum times: then something else is in the way.
 CAUGHT = 0.5
+CAUGHT_IN_AIR = 0.2
 LONGEST = 24.0
 # The body goes back by so many leg lengths a pendulum time, up to where the leg is at rest.
 SPEED = 0.25
-# From then on the way leads to the other side, by so many radians for each time, up to a limit; that
+# Then the way leads to the other side, by so many radians for each time, up to a limit; that
 # is forgotten within so many pendulum times.
-SHY = 0.45
+SHY = 0.6
 MOST_SHY = 1.2
-FORGET = 16.0
+FORGET = 30.0
 
 
 @kernel
@@ -41,10 +42,12 @@ def note_caught(c: int, dt: float, state: Any, tables: Any) -> None:
             away = -SHY * tables.legs.side[k]
             state.shy[c] = min(max(state.shy[c] + away, -MOST_SHY), MOST_SHY)
         return
-    most = CAUGHT / max(state.cycle_rate[c], 1e-12)
+    most = 1.0
     for k in range(count):
-        if state.waiting[c, k] > most and not state.reaching[c, k]:
-            most = state.waiting[c, k]
+        cycles = state.waiting[c, k] * state.cycle_rate[c]
+        cycles /= CAUGHT_IN_AIR if state.swinging[c, k] else CAUGHT
+        if cycles > most and not state.reaching[c, k]:
+            most = cycles
             state.caught[c] = k + 1
             state.caught_clock[c] = 0.0
 
