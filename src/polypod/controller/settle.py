@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift, pitched
+from polypod.body.reach import (
+    EARLY,
+    EARLY_PULL,
+    LATE_PULL,
+    TOLERANCE,
+    body_within_reach,
+    foot_shift,
+    pitched,
+)
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
@@ -35,9 +43,9 @@ LANDED = 1e-3
 PUSHES = 4
 # And so far is a foot pushed for those between two frames, leg lengths.
 LARGEST_PUSH = 0.05
-# A foot that its leg could not carry on goes on by so much of its way that the body need not move
-# by more than this, leg lengths: what draws the body back out of a pocket.
-DRAWN = 0.014
+# A foot that its leg could not carry on goes on by so much of its way that it pulls at the body by
+# this share of what may be pulled: that draws the body back out of a pocket.
+DRAWN = 0.9
 # How deep the straight way between two frames may cut into what is stepped on, leg lengths.
 CUT = 0.006
 
@@ -82,8 +90,9 @@ def pushed_aside(c: int, k: int, sole: Vec3, state: Any, tables: Any, env: Any) 
 
 @kernel
 def may_go(
-    c: int, k: int, sole: Vec3, turn: Quat, state: Any, tables: Any, env: Any, scratch: Any
-) -> bool:
+    c: int, k: int, progress: float, sole: Vec3, turn: Quat, state: Any, tables: Any, env: Any,
+    scratch: Any,
+) -> bool:  # fmt: skip
     """Return whether a foot may be at `sole` at the end of the frame.
 
     What is played of the frame is a straight way; and where its leg could not carry the foot on
@@ -92,13 +101,13 @@ def may_go(
     unit = tables.legs.length[k]
     if not chord_is_free(state.frame[c], CUT * unit, load_vec3(state.foot_shown[c, k]), sole, env):
         return False
-    if state.waiting[c, k] == 0.0:
+    if state.waiting[c, k] == 0.0 and state.caught[c] != k + 1:
         return True
     foot_turn = pitched(turn, scratch.pitch[k, 0])
     position = load_vec3(state.position[c])
     body_turn = load_quat(state.rotation[c])
     shift = foot_shift(k, tables, sole, foot_turn, scratch.bend[k, 0], position, body_turn)
-    return length(shift) <= DRAWN * unit
+    return length(shift) <= DRAWN * (EARLY_PULL if progress < EARLY else LATE_PULL) * unit
 
 
 @kernel
@@ -122,7 +131,9 @@ def wish_feet(
             for attempt in range(SHORTER + 1):
                 sole, turn = foot_along(c, k, progress, state, env)
                 roll_swinging(c, k, dt, progress, state, scratch)
-                if attempt == SHORTER or may_go(c, k, sole, turn, state, tables, env, scratch):
+                if attempt == SHORTER or may_go(
+                    c, k, progress, sole, turn, state, tables, env, scratch
+                ):
                     break
                 progress = 0.5 * (now + progress)
             if env.mover_count > 0:
