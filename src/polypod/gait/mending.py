@@ -4,8 +4,9 @@ Tried are what a user would turn: the duty, the period, when one foot or a few o
 duty and period together, another speed, and last another gait. What is offered was judged as it is
 written, with rounded numbers.
 
-Changes are compared by one measure: the logarithm of the ratio for duty, period and speed, and four
-times the sum of the shifts in cycles, so that a quarter of a cycle counts as much as a factor of e.
+Changes are compared by one measure: the logarithm of the ratio for period and speed, for duty that
+of stance over swing, and three times the sum of the shifts in cycles: a quarter of a cycle counts
+as much as twice the period.
 """
 
 from __future__ import annotations
@@ -19,11 +20,12 @@ from typing import NamedTuple
 import numpy as np
 
 from polypod.errors import GaitError
+from polypod.gait.build import FASTEST
 from polypod.gait.library import make_gait, names
 from polypod.gait.limits import Demand
 from polypod.gait.pattern import Gait, wrapped
 
-SHIFT_COST = 4.0
+SHIFT_COST = 3.0
 # Shifts of touchdowns that are tried, cycles.
 SHIFT_STEP = 0.02
 # The same where several feet are shifted.
@@ -155,13 +157,12 @@ def _applied(turned: _Turned, asked: Gait, demand: Demand) -> Gait:
 
 def _size(turned: _Turned, demand: Demand) -> float:
     size = SHIFT_COST * sum(abs(shift) for _, shift in turned.shifts)
-    for value, old in (
-        (turned.duty, demand.gait.duty),
-        (turned.period, demand.period),
-        (turned.speed, demand.speed),
-    ):
+    if turned.duty is not None:
+        old = demand.gait.duty
+        size += abs(math.log(turned.duty * (1.0 - old) / (old * (1.0 - turned.duty))))
+    for value, before in ((turned.period, demand.period), (turned.speed, demand.speed)):
         if value is not None:
-            size += abs(math.log(value / old))
+            size += abs(math.log(value / before))
     # Gaits in the library's order.
     return size if turned.name is None else float(names().index(turned.name))
 
@@ -204,7 +205,8 @@ def _duties_and_periods(demand: Demand) -> Iterator[_Turned]:
 
 def _speeds(demand: Demand) -> Iterator[_Turned]:
     for speed in _around(demand.speed) if demand.speed > 0.0 else ():
-        yield _Turned(speed=speed)
+        if speed <= FASTEST:
+            yield _Turned(speed=speed)
 
 
 def _shifts(

@@ -39,6 +39,8 @@ SAMPLES = 256
 # Each leaves a quarter of the bracket about an extreme: 2 / SAMPLES to 3e-8, values to 1e-14.
 REFINEMENTS = 9
 REFINED = 9
+# Of several turning points the greatest on the grid need not be the greatest.
+CANDIDATES = 4
 
 
 class Extreme(NamedTuple):
@@ -192,15 +194,20 @@ class Orbit:
     def _extreme(self, value: Callable[[FloatArray], FloatArray], sign: float) -> Extreme:
         """Return the greatest (sign +1) or least (-1) of a function of the phase."""
         grid = self._grid
-        best = int(np.argmax(sign * value(grid)))
-        low = grid[best - 1] - (best == 0)
-        high = grid[(best + 1) % len(grid)] + (best == len(grid) - 1)
+        rated = sign * value(grid)
+        turning = (rated >= np.roll(rated, 1)) & (rated >= np.roll(rated, -1))
+        candidates = np.flatnonzero(turning)
+        candidates = candidates[np.argsort(-rated[candidates], kind="stable")[:CANDIDATES]]
+        before = np.append(grid[-1] - 1.0, grid)[candidates]
+        after = np.append(grid, grid[0] + 1.0)[candidates + 1]
+        rows = np.arange(len(candidates))
         for _ in range(REFINEMENTS):
-            trial = np.linspace(low, high, REFINED)
-            place = int(np.argmax(sign * value(trial)))
-            low, high = trial[max(place - 1, 0)], trial[min(place + 1, REFINED - 1)]
+            trial = np.linspace(before, after, REFINED, axis=1)
+            best = np.argmax(sign * value(trial), axis=1)
+            before = trial[rows, np.maximum(best - 1, 0)]
+            after = trial[rows, np.minimum(best + 1, REFINED - 1)]
         # Extremes at events are on the grid already.
-        phases = np.array([grid[best], 0.5 * (low + high)])
+        phases = np.concatenate([grid[candidates], 0.5 * (before + after)])
         values = value(phases)
         place = int(np.argmax(sign * values))
         return Extreme(float(phases[place] % 1.0), float(values[place]))

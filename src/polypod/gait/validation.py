@@ -83,12 +83,14 @@ class GaitCheck:
 
     @property
     def sentence(self) -> str:
-        """The verdict in a sentence, with the peak force, reasons and what would mend it."""
-        words = f"gait '{self.gait.name}' at {self.speed:.3g} m/s is {self.verdict}"
-        if not self.reasons:
-            return f"{words}, with a peak force of {self.body_peak:.3g} g on the body"
-        told = f"{words}: peak force {self.body_peak:.3g} g on the body; {'; '.join(self.reasons)}"
-        return told if self.change is None else f"{told}. Plausible with {self.change.text}"
+        """The verdict in a sentence: peak force, main reason, what would mend it."""
+        words = (
+            f"gait '{self.gait.name}' at {self.speed:.3g} m/s is {self.verdict}, with "
+            f"{self.body_peak:.3g} g at the peak"
+        )
+        if self.reasons:
+            words += f": {self.reasons[0]}"
+        return words if self.change is None else f"{words}; plausible with {self.change.text}"
 
 
 def check_gait(

@@ -105,8 +105,7 @@ def run(given: argparse.Namespace) -> int:
     if scene is not None and scene.pushes:
         warn(f"{scene.path} has pushes, which this version does not simulate; it walks unpushed")
     with telling_of_compilation():
-        recordings, environment = _walk(roles, scene, seconds, given.fps)
-        gaits = _judge_gaits(roles)
+        recordings, environment, gaits = _walk(roles, scene, seconds, given.fps)
         reports = _judge_walks(
             roles, gaits, recordings, environment, seconds, bool(given.report and outputs.glb)
         )
@@ -141,7 +140,7 @@ def _judge_length(roles: list[Role], seconds: float, fps: float) -> None:
 
 def _walk(
     roles: list[Role], scene: Scene | None, seconds: float, fps: float
-) -> tuple[list[Recording], Environment]:
+) -> tuple[list[Recording], Environment, list[GaitCheck | None]]:
     from polypod.environment.environment import Environment
     from polypod.jobs.cast import enter, overdone
     from polypod.recording import record_walk
@@ -157,8 +156,9 @@ def _walk(
         too_fast = overdone(role, herd)
         if too_fast is not None:
             warn(too_fast)
+    gaits = _judge_gaits(roles)
     with progress("walking") as advance:
-        return record_walk(world, seconds, fps, advance), environment
+        return record_walk(world, seconds, fps, advance), environment, gaits
 
 
 def _judge_gaits(roles: list[Role]) -> list[GaitCheck | None]:
