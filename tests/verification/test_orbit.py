@@ -18,7 +18,7 @@ from polypod.gait.pattern import Gait
 from polypod.gait.validation import check_gait
 
 FEET = st.lists(
-    st.tuples(st.floats(0.0, 1.0, exclude_max=True), st.floats(0.03, 0.97), st.floats(0.1, 10.0)),
+    st.tuples(st.floats(0.0, 1.0, exclude_max=True), st.floats(0.01, 0.99), st.floats(0.1, 10.0)),
     min_size=1,
     max_size=8,
 )
@@ -47,6 +47,7 @@ def gauss(low: float, high: float) -> tuple[np.ndarray, np.ndarray]:
     return 0.5 * (low + high) + 0.5 * (high - low) * nodes, 0.5 * (high - low) * weights
 
 
+@settings(deadline=None)
 @given(FEET, PERIODS, VAULTS)
 def test_over_a_cycle_a_foot_pushes_with_one_g_and_its_height_is_0(
     feet: list[tuple[float, float, float]], period: float, vault: float
@@ -67,6 +68,7 @@ def test_over_a_cycle_a_foot_pushes_with_one_g_and_its_height_is_0(
         assert speed / (GRAVITY * period) == pytest.approx(0.0, abs=1e-14)
 
 
+@settings(deadline=None)
 @given(FEET, PERIODS, VAULTS)
 def test_feet_never_pull_and_fall_freely_in_the_air(
     feet: list[tuple[float, float, float]], period: float, vault: float
@@ -85,25 +87,41 @@ def test_feet_never_pull_and_fall_freely_in_the_air(
         assert speed - speed[0] == pytest.approx(fallen, abs=1e-9 * GRAVITY * period)
 
 
+@settings(deadline=None)
+@given(FEET, PERIODS, VAULTS, st.floats(0.0, 1.0), st.floats(0.0, 1.0))
+def test_what_pushes_makes_speed_and_speed_makes_height(
+    feet: list[tuple[float, float, float]], period: float, vault: float, low: float, high: float
+) -> None:
+    """Between any two phases of a stance, also when it is many turns of the needle ago."""
+    motion = orbit(feet, period, vault)
+    for foot, (touchdown, duty, _) in enumerate(feet):
+        begin, end = touchdown + duty * low, touchdown + duty * high
+        phase, weight = gauss(begin, end)
+        pushed = weight @ (motion.foot_force(phase)[:, foot] - 1.0)
+        speed = motion.foot_speed([begin, end])[:, foot] / (GRAVITY * period)
+        assert speed[1] - speed[0] == pytest.approx(pushed, abs=1e-9)
+        risen = weight @ motion.foot_speed(phase)[:, foot] / (GRAVITY * period)
+        height = motion.foot_height([begin - 3.0, end + 7.0])[:, foot] / (GRAVITY * period**2)
+        assert height[1] - height[0] == pytest.approx(risen, abs=1e-11)
+
+
+@settings(deadline=None)
 @given(FEET, PERIODS, VAULTS)
-def test_speed_is_the_rate_of_height_and_force_that_of_speed(
+def test_neither_height_nor_speed_jumps_where_a_foot_lands_or_lifts(
     feet: list[tuple[float, float, float]], period: float, vault: float
 ) -> None:
     motion = orbit(feet, period, vault)
-    phase = np.linspace(0.0, 1.0, 997)
-    step = 1e-5
-    rise = (motion.foot_height(phase + step) - motion.foot_height(phase - step)) / (2 * step)
-    unit = GRAVITY * period**2
-    # Across an event the second difference is off by the jump of the force's slope; continuity.
-    assert rise == pytest.approx(motion.foot_speed(phase) * period, abs=1e-3 * unit)
-    gain = (motion.foot_speed(phase + step) - motion.foot_speed(phase - step)) / (2 * step)
-    pushed = (motion.foot_force(phase) - 1.0) * GRAVITY * period
-    assert gain == pytest.approx(pushed, abs=2e-1 * GRAVITY * period)
-    smooth = np.abs(motion.foot_force(phase + step) - motion.foot_force(phase - step)) < 1e-2
-    gap = np.abs(gain - pushed)[smooth]
-    assert gap.max(initial=0.0) <= 1e-2 * GRAVITY * period
+    step = 1e-9
+    for foot, (touchdown, duty, _) in enumerate(feet):
+        for event in (touchdown, touchdown + duty):
+            near = [event - step, event + step]
+            speed = motion.foot_speed(near)[:, foot] / (GRAVITY * period)
+            height = motion.foot_height(near)[:, foot] / (GRAVITY * period**2)
+            assert speed[1] == pytest.approx(speed[0], abs=1e-8)
+            assert height[1] == pytest.approx(height[0], abs=1e-8)
 
 
+@settings(deadline=None)
 @given(FEET, PERIODS, VAULTS, st.floats(0.0, 1.0))
 def test_where_the_needle_starts_changes_nothing(
     feet: list[tuple[float, float, float]], period: float, vault: float, turn: float
@@ -117,7 +135,7 @@ def test_where_the_needle_starts_changes_nothing(
     assert other.height(phase + turn) == pytest.approx(one.height(phase), abs=1e-12 * unit)
 
 
-@settings(max_examples=50)
+@settings(max_examples=50, deadline=None)
 @given(FEET, VAULTS, PERIODS)
 def test_extremes_are_those_of_a_fine_sampling(
     feet: list[tuple[float, float, float]], vault: float, period: float
@@ -129,8 +147,8 @@ def test_extremes_are_those_of_a_fine_sampling(
     assert motion.highest.value == pytest.approx(height.max(), abs=1e-7 * unit)
     assert motion.lowest.value == pytest.approx(height.min(), abs=1e-7 * unit)
     assert motion.highest.value >= height.max() - 1e-9 * unit
-    assert motion.strongest.value == pytest.approx(force.max(), abs=1e-3)
-    assert motion.strongest.value >= force.max() - 1e-4
+    assert motion.strongest.value == pytest.approx(force.max(), rel=1e-3)
+    assert motion.strongest.value >= force.max() * (1.0 - 1e-6)
     assert motion.height(motion.lowest.phase) == pytest.approx(motion.lowest.value, abs=1e-12)
 
 

@@ -36,6 +36,7 @@ VAULT = 0.4
 LARGEST_VAULT = 1.0
 # Samples of a cycle among which extremes are looked for before they are refined.
 SAMPLES = 256
+SAMPLES_A_STANCE = 12
 # Each leaves a quarter of the bracket about an extreme: 2 / SAMPLES to 3e-8, values to 1e-14.
 REFINEMENTS = 9
 REFINED = 9
@@ -187,8 +188,12 @@ class Orbit:
     @cached_property
     def _grid(self) -> FloatArray:
         """Phases at which extremes are looked for: events, mid-stances, and between them."""
+        # A stance too short for the even samples has its own: a vault pushes twice in each.
+        short = self.duty * SAMPLES < SAMPLES_A_STANCE
+        inside = np.linspace(0.0, 1.0, SAMPLES_A_STANCE + 1)[:, None]
+        within = (self.touchdown + self.duty * inside)[:, short].reshape(-1)
         middle = self.touchdown + 0.5 * self.duty
-        events = np.concatenate([self.touchdown, middle, self.touchdown + self.duty])
+        events = np.concatenate([self.touchdown, middle, self.touchdown + self.duty, within])
         return np.unique(np.concatenate([np.mod(events, 1.0), np.arange(SAMPLES) / SAMPLES]))
 
     def _extreme(self, value: Callable[[FloatArray], FloatArray], sign: float) -> Extreme:
