@@ -19,6 +19,8 @@ MOMENTS = 6
 FORESIGHT = 0.8
 # Where it is looked at, leg lengths above the sole, and the room that it keeps.
 ON_FOOT = 0.03
+# What lies over it is looked for lower: plates are thin.
+AT_FOOT = 1e-3
 ROOM = 0.03
 # A foot that pulls by so many leg lengths at a body that cannot move has been carried off.
 CARRIED_OFF = 1e-4
@@ -162,6 +164,6 @@ def any_threatened(c: int, state: Any, tables: Any, env: Any) -> bool:
 @kernel
 def step_out(c: int, k: int, state: Any, tables: Any, env: Any) -> None:
     """Put a standing foot beside or on what has been put over it: it has no other way out."""
-    over = load_vec3(state.foot[c, k]) + Vec3(0.0, ON_FOOT * tables.legs.length[k], 0.0)
+    over = load_vec3(state.foot[c, k]) + Vec3(0.0, AT_FOOT * tables.legs.length[k], 0.0)
     free = clear_of_movers(env, over, 0.0, state.foot_support[c, k])
     store_vec3(state.foot[c, k], load_vec3(state.foot[c, k]) + (free - over))

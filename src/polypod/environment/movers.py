@@ -10,6 +10,9 @@ from polypod.environment.shapes import depth_inside, way_out
 from polypod.environment.table import EnvironmentTable
 from polypod.math.vec3 import Vec3
 
+# What is moved out of something is put this much past its face: on it, it would be on top as well.
+PAST = 1.0 + 1e-6
+
 
 @kernel
 def mover_depth(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int) -> float:
@@ -52,5 +55,5 @@ def clear_of_movers(env: EnvironmentTable, point_world: Vec3, ahead: float, own:
         i = env.owner[o]
         if i != own:
             out = way_out(env, o, own_point(env, i, point_world, ahead))
-            point_world = point_world + world_direction(env, i, out, ahead)
+            point_world = point_world + world_direction(env, i, out, ahead) * PAST
     return point_world
