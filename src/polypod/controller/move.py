@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import hold_back, load_deflection
 from polypod.compute import kernel
 from polypod.controller.course import choose_course
 from polypod.controller.steering import PlanPose, plan_pose, steer
@@ -66,6 +67,7 @@ def move_body(
     heading = pose.heading
     turn_rate = pose.turn_rate
     speed = pose.speed
+    aside = pose.aside
     if near > 0:
         free_x, free_z, apart = apart_from(c, near, x, z, heading, state, scratch)
         if not apart:
@@ -76,6 +78,9 @@ def move_body(
         asked = math.hypot(x - state.position[c, 0], z - state.position[c, 2])
         left = math.hypot(free_x - state.position[c, 0], free_z - state.position[c, 2])
         speed *= min(left / max(asked, 1e-12), 1.0)
+        was = load_deflection(c, state)
+        turned = 1.0 if apart else 0.0
+        aside = hold_back(was, aside, x - free_x, z - free_z, turned, dt, tables)
         x = free_x
         z = free_z
     return PlanPose(
@@ -88,4 +93,5 @@ def move_body(
         pose.corner,
         pose.detour,
         pose.pace,
+        aside,
     )

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import is_pushed
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, plan_pose, predict
 from polypod.gait.needle import minimum_feet_down, turn_needle
-from polypod.gait.tempo import tempo
+from polypod.gait.tempo import SHORTEST_PERIOD, tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
 from polypod.math.intervals import wrap_phase
 
@@ -24,17 +25,29 @@ HURRY_CYCLES = 3.0
 
 
 @kernel
-def fastest_foot_speed(c: int, pose: PlanPose, state: Any, tables: Any) -> float:
-    """Return the speed of the fastest foot's rest place, m/s: it sets the tempo in a turn."""
+def fastest_foot_speed(
+    c: int, pose: PlanPose, state: Any, command: Any, tables: Any
+) -> float:  # fmt: skip
+    """Return the speed of the fastest foot's rest place, m/s: it sets the tempo in a turn.
+
+    Also when pushed, and until the body is back: how far it still is counts like a speed.
+    """
     legs = tables.legs
+    aside = pose.aside
+    course = pose.heading - aside.heading + command.travel[c]
+    push_ahead = math.sin(course) * aside.rate_x + math.cos(course) * aside.rate_z
+    push_left = math.cos(course) * aside.rate_x - math.sin(course) * aside.rate_z
+    turn_rate = pose.turn_rate + aside.rate_heading
     most = 0.0
     for k in range(legs.length.shape[0]):
         across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
         along = legs.sole_stance[k, 2] + state.spacing[c, k, 1]
         # Heading turns +Z toward +X: a place at +X moves backward.
-        forward = pose.speed - pose.turn_rate * across
-        sideways = pose.turn_rate * along
+        forward = pose.speed + push_ahead - turn_rate * across
+        sideways = push_left + turn_rate * along
         most = max(most, math.hypot(forward, sideways))
+    if is_pushed(aside):
+        most = math.hypot(most, tables.recovery * math.hypot(aside.x, aside.z))
     return most
 
 
@@ -103,7 +116,8 @@ def advance_gait(
     now = plan_pose(c, state)
     soon = predict(now, SOON * tables.pendulum_time, c, state, command, tables, settings)
     speed = max(
-        fastest_foot_speed(c, now, state, tables), fastest_foot_speed(c, soon, state, tables)
+        fastest_foot_speed(c, now, state, command, tables),
+        fastest_foot_speed(c, soon, state, command, tables),
     )
     aim = tempo(
         speed, tables.hip_height, tables.leg_length, tables.upright, command.gait_duty[c, 1],
@@ -118,6 +132,9 @@ def advance_gait(
         state.cycle_rate[c] = 0.0
         return 0.0
     period = aim.period
+    if is_pushed(now.aside):
+        # However hard the push: no legs are quicker.
+        period = max(period, SHORTEST_PERIOD * tables.pendulum_time)
     if math.isnan(command.period[c]):
         period /= 1.0 + state.hurry[c]
     state.cycle_rate[c] = 1.0 / period

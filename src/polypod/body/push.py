@@ -1,0 +1,226 @@
+"""Pushes: how far a body is off the path that steering gives it, and how it comes back (P2 5.2, 6).
+
+P2 displaces a pelvis node on the plan and lets the walk go on. Here an impulse changes the velocity
+of the body; what takes it off its path dies away like a critically damped spring, solved exactly,
+so that the frame rate does not matter. The path itself is steering's, and knows nothing of it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from polypod.compute import kernel
+from polypod.gait.tempo import GRAVITY
+from polypod.morphology.types import BodyTable, FloatArray, IntArray
+
+# Rate of the spring, over that of an inverted pendulum as high as the hips. At one half a pushed
+# body slows down as it would over feet that stand at its capture point (velocity over that rate).
+RECOVERY = 0.5
+# Hips lower than this count as so high, leg lengths: low-slung bodies are no quicker than legs.
+LOWEST_HIP = 0.3
+# The hardest push that legs can answer, in sqrt(g h), and the farthest it turns a body, rad: what
+# is more is lost.
+HARDEST = 3.0
+FARTHEST_TURN = 0.8
+# A body tips in the push's direction as one that pivots over its feet, at most at this share of the
+# pendulum's rate, rad.
+MOST_TIP = 1.0
+# Legs that are at their end take the velocity out of a body in so many pendulum times.
+HOLD = 0.6
+# Nearer to its path than this, leg lengths, and slower, a body is on it.
+ON_PATH = 1e-9
+# A body moves off its path only if a push leads it farther than this, leg lengths.
+NOTICED = 1e-3
+
+
+class Deflection(NamedTuple):
+    """How far the body is off its path on the plane, and how fast it moves against it."""
+
+    x: float  # m, world
+    z: float
+    heading: float  # rad
+    rate_x: float  # m/s
+    rate_z: float
+    rate_heading: float  # rad/s
+
+
+NO_DEFLECTION = Deflection(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def recovery_rate(hip_height: float, leg_length: float) -> float:
+    """Return the rate of the spring that brings a body back, 1/s; metres."""
+    return RECOVERY * math.sqrt(GRAVITY / max(hip_height, LOWEST_HIP * leg_length))
+
+
+class Blow(NamedTuple):
+    """What an impulse changes at once; N creatures."""
+
+    velocity: FloatArray  # [N, 3] of the body's centre, world, m/s
+    turn_rate: FloatArray  # [N] rad/s
+    pitch_rate: FloatArray  # [N] of the slope lengthwise, 1/s
+    roll_rate: FloatArray  # [N] of the slope across, 1/s
+
+
+def strike(
+    velocity: FloatArray, heading: FloatArray, at: float, body: BodyTable, recovery: float
+) -> Blow:
+    """Return what an impulse changes that gives the struck place of a trunk a velocity.
+
+    Off the centre the trunk is lighter, and turns: it is taken as a plate of its box's plan.
+
+    Args:
+        velocity: [N, 3] of the struck place, world, m/s.
+        heading: [N] rad.
+        at: how far ahead of the body centre it is struck, m.
+        body: the trunk.
+        recovery: the rate of `recovery_rate`, 1/s.
+    """
+    pendulum = recovery / RECOVERY
+    height = GRAVITY / (pendulum * pendulum)
+    # The square of the plate's radius of gyration about the vertical.
+    gyration = float(body.half_size[0] ** 2 + body.half_size[2] ** 2) / 3.0
+    light = 1.0 if at == 0.0 else gyration / (gyration + at * at)
+    lever = 0.0 if at == 0.0 else at / (gyration + at * at)
+    sine, cosine = np.sin(heading), np.cos(heading)
+    ahead = velocity[:, 0] * sine + velocity[:, 2] * cosine
+    left = velocity[:, 0] * cosine - velocity[:, 2] * sine
+    turn_rate, nod = lever * left, lever * velocity[:, 1]
+    left = light * left
+    up = light * velocity[:, 1]
+    hardest = HARDEST * pendulum * height
+    size = np.maximum(np.sqrt(ahead**2 + left**2 + up**2), 1e-12)
+    share = np.minimum(hardest / size, 1.0)
+    ahead, left, up = share * ahead, share * left, share * up
+    most = FARTHEST_TURN * math.e * recovery
+    tip = np.minimum(MOST_TIP * pendulum * height / np.maximum(np.hypot(ahead, left), 1e-12), 1.0)
+    return Blow(
+        np.stack([ahead * sine + left * cosine, up, ahead * cosine - left * sine], axis=1),
+        np.clip(turn_rate, -most, most),
+        np.clip(nod, -most, most) - tip * ahead / height,
+        -tip * left / height,
+    )
+
+
+@kernel
+def load_deflection(c: int, state: Any) -> Deflection:
+    """Return how far a creature is off its path."""
+    kept = state.deflection[c]
+    return Deflection(kept[0], kept[1], kept[2], kept[3], kept[4], kept[5])
+
+
+@kernel
+def store_deflection(c: int, aside: Deflection, state: Any, tables: Any) -> None:
+    """Keep how far a creature is off its path; who is all but on it is on it."""
+    size = math.hypot(aside.x, aside.z) + tables.leg_length * abs(aside.heading)
+    rate = math.hypot(aside.rate_x, aside.rate_z) + tables.leg_length * abs(aside.rate_heading)
+    if size + rate / tables.recovery <= ON_PATH * tables.leg_length:
+        aside = Deflection(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    state.deflection[c, 0] = aside.x
+    state.deflection[c, 1] = aside.z
+    state.deflection[c, 2] = aside.heading
+    state.deflection[c, 3] = aside.rate_x
+    state.deflection[c, 4] = aside.rate_z
+    state.deflection[c, 5] = aside.rate_heading
+
+
+@kernel
+def is_pushed(aside: Deflection) -> bool:
+    """Return whether a body is off its path."""
+    return (
+        aside.x != 0.0
+        or aside.z != 0.0
+        or aside.heading != 0.0
+        or aside.rate_x != 0.0
+        or aside.rate_z != 0.0
+        or aside.rate_heading != 0.0
+    )
+
+
+@kernel
+def recover(aside: Deflection, recovery: float, seconds: float) -> Deflection:
+    """Return the deflection `seconds` later: d'' = -2 w d' - w^2 d, solved exactly."""
+    if not is_pushed(aside):
+        return aside
+    decay = math.exp(-recovery * seconds)
+    drift_x = aside.rate_x + recovery * aside.x
+    drift_z = aside.rate_z + recovery * aside.z
+    drift_heading = aside.rate_heading + recovery * aside.heading
+    return Deflection(
+        (aside.x + drift_x * seconds) * decay,
+        (aside.z + drift_z * seconds) * decay,
+        (aside.heading + drift_heading * seconds) * decay,
+        (aside.rate_x - recovery * drift_x * seconds) * decay,
+        (aside.rate_z - recovery * drift_z * seconds) * decay,
+        (aside.rate_heading - recovery * drift_heading * seconds) * decay,
+    )
+
+
+@kernel
+def hold_back(
+    was: Deflection, aside: Deflection, short_x: float, short_z: float, turned: float,
+    seconds: float, tables: Any,
+) -> Deflection:  # fmt: skip
+    """Return the deflection of a body that got less far in a step than it was to go.
+
+    What legs or others did not let it move, and would have led it from `was` to `aside`, it has not
+    moved; its velocity dies away as long as they hold it. The rest of what it fell short by (m) is
+    its path's. `turned` is the share of the step's turn that was possible.
+    """
+    if not is_pushed(aside):
+        return aside
+    move_x = aside.x - was.x
+    move_z = aside.z - was.z
+    square = move_x * move_x + move_z * move_z
+    held = 0.0
+    if square > 0.0:
+        held = min(max((short_x * move_x + short_z * move_z) / square, 0.0), 1.0)
+    still = 1.0 - turned
+    slowing = seconds / (HOLD * tables.pendulum_time)
+    straight = math.exp(-held * slowing)
+    round_about = math.exp(-still * slowing)
+    return Deflection(
+        aside.x - held * move_x,
+        aside.z - held * move_z,
+        aside.heading - still * (aside.heading - was.heading),
+        aside.rate_x * straight,
+        aside.rate_z * straight,
+        aside.rate_heading * round_about,
+    )
+
+
+@kernel
+def caught_at(aside: Deflection, recovery: float) -> Deflection:
+    """Return the deflection at which feet catch a body: where a fresh push takes it farthest."""
+    return recover(aside, recovery, 1.0 / recovery)
+
+
+@kernel
+def moved_by_push(aside: Deflection, recovery: float, seconds: float) -> tuple[float, float]:
+    """Return how far a deflection moves a body in some seconds, world x and z, m."""
+    then = recover(aside, recovery, seconds)
+    return then.x - aside.x, then.z - aside.z
+
+
+def land_blow(blow: Blow, rows: IntArray, state: Any, tables: Any) -> None:
+    """Let an impulse act on the creatures of a herd's rows [N]."""
+    rate = state.deflection[rows, 3:5] + blow.velocity[:, [0, 2]]
+    hardest = HARDEST * GRAVITY * RECOVERY / tables.recovery
+    size = np.maximum(np.hypot(rate[:, 0], rate[:, 1]), 1e-12)
+    state.deflection[rows, 3:5] = rate * np.minimum(hardest / size, 1.0)[:, None]
+    most = FARTHEST_TURN * math.e * tables.recovery
+    turned = state.deflection[rows, 5] + blow.turn_rate
+    state.deflection[rows, 5] = np.clip(turned, -most, most)
+    state.tilt[rows, 0, 1] += blow.pitch_rate * tables.tilt_scale
+    state.tilt[rows, 1, 1] += blow.roll_rate * tables.tilt_scale
+    push_up(blow.velocity[:, 1], rows, state)
+
+
+def push_up(speed: FloatArray, rows: IntArray, state: Any) -> None:
+    """Let the vertical part of an impulse act: `speed` [N], m/s, of the rows [N] of a herd.
+
+    The only place where a push meets what moves the body up and down.
+    """
+    state.lift[rows, 1] += speed
