@@ -161,13 +161,14 @@ def recover(aside: Deflection, recovery: float, seconds: float) -> Deflection:
 @kernel
 def hold_back(
     was: Deflection, aside: Deflection, short_x: float, short_z: float, turned: float,
-    seconds: float, tables: Any,
+    course: float, way: float, seconds: float, tables: Any,
 ) -> Deflection:  # fmt: skip
     """Return the deflection of a body that got less far in a step than it was to go.
 
     What legs or others did not let it move, and would have led it from `was` to `aside`, it has not
-    moved; its velocity dies away as long as they hold it. The rest of what it fell short by (m) is
-    its path's. `turned` is the share of the step's turn that was possible.
+    moved; its velocity dies away as long as they hold it. Nor do they lead it off its path
+    otherwise: of the rest of what it fell short by (m) the path's is only what is missing of its
+    own `way` (m) along its `course`. `turned` is the share of the step's turn that was possible.
     """
     if not is_pushed(aside):
         return aside
@@ -177,17 +178,32 @@ def hold_back(
     held = 0.0
     if square > 0.0:
         held = min(max((short_x * move_x + short_z * move_z) / square, 0.0), 1.0)
+    short_x -= held * move_x
+    short_z -= held * move_z
+    sine = math.sin(course)
+    cosine = math.cos(course)
+    own = min(max(short_x * sine + short_z * cosine, 0.0), way)
+    short_x -= own * sine
+    short_z -= own * cosine
     still = 1.0 - turned
     slowing = seconds / (HOLD * tables.pendulum_time)
     straight = math.exp(-held * slowing)
     round_about = math.exp(-still * slowing)
     return Deflection(
-        aside.x - held * move_x,
-        aside.z - held * move_z,
+        aside.x - held * move_x - short_x,
+        aside.z - held * move_z - short_z,
         aside.heading - still * (aside.heading - was.heading),
         aside.rate_x * straight,
         aside.rate_z * straight,
         aside.rate_heading * round_about,
+    )
+
+
+@kernel
+def moved_aside(aside: Deflection, x: float, z: float) -> Deflection:
+    """Return the deflection of a body that was moved off its path, m."""
+    return Deflection(
+        aside.x + x, aside.z + z, aside.heading, aside.rate_x, aside.rate_z, aside.rate_heading
     )
 
 

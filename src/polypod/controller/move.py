@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.push import hold_back, load_deflection
+from polypod.body.push import hold_back, is_pushed, load_deflection, moved_aside
 from polypod.compute import kernel
 from polypod.controller.course import choose_course
 from polypod.controller.steering import PlanPose, plan_pose, steer
@@ -61,13 +61,16 @@ def move_body(
         state.detour[c] = 0.0
         state.pace[c] = 0.0
     pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
-    x, z = feedback(c, state, tables, settings)
-    x = pose.x + x * dt
-    z = pose.z + z * dt
+    shift_x, shift_z = feedback(c, state, tables, settings)
+    x = pose.x + shift_x * dt
+    z = pose.z + shift_z * dt
     heading = pose.heading
     turn_rate = pose.turn_rate
     speed = pose.speed
     aside = pose.aside
+    if is_pushed(aside):
+        # Feet that step aside to catch it take it along, and not its path.
+        aside = moved_aside(aside, shift_x * dt, shift_z * dt)
     if near > 0:
         free_x, free_z, apart = apart_from(c, near, x, z, heading, state, scratch)
         if not apart:
@@ -80,7 +83,9 @@ def move_body(
         speed *= min(left / max(asked, 1e-12), 1.0)
         was = load_deflection(c, state)
         turned = 1.0 if apart else 0.0
-        aside = hold_back(was, aside, x - free_x, z - free_z, turned, dt, tables)
+        course = heading - aside.heading + command.travel[c]
+        way = 0.5 * (state.speed[c] + speed) * dt
+        aside = hold_back(was, aside, x - free_x, z - free_z, turned, course, way, dt, tables)
         x = free_x
         z = free_z
     return PlanPose(

@@ -213,9 +213,12 @@ def note_pose(
     z = state.position[c, 2] - before.z
     short_x = pose.x - before.x - x
     short_z = pose.z - before.z - z
-    aside = hold_back(was, pose.aside, short_x, short_z, state.held[c], dt, tables)
-    store_deflection(c, aside, state, tables)
     course = pose.heading - pose.aside.heading + command.travel[c]
+    way = 0.5 * (state.speed[c] + pose.speed) * dt
+    aside = hold_back(
+        was, pose.aside, short_x, short_z, state.held[c], course, way, dt, tables
+    )  # fmt: skip
+    store_deflection(c, aside, state, tables)
     x -= aside.x - was.x
     z -= aside.z - was.z
     real = (math.sin(course) * x + math.cos(course) * z) / dt
