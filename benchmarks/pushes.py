@@ -38,9 +38,9 @@ PUSHED_AT = 2.5  # s
 ALWAYS = ("slip", "off", "inside", "limits deg", "bones")
 USUAL = ("residual", "swing in", "swing res")
 GENTLE = 1.0
-# Who is back is so near to its path, leg lengths; on rough ground feet find their own way.
+# Who is back is so near to its twin's path, leg lengths: on rough ground each finds its own way.
 BACK = {"flat": 0.02}
-BACK_ELSEWHERE = 0.25
+BACK_ELSEWHERE = 0.35
 
 
 class Pushed(NamedTuple):

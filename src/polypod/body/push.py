@@ -29,7 +29,7 @@ FARTHEST_TURN = 0.8
 # pendulum's rate, rad.
 MOST_TIP = 1.0
 # Legs that are at their end take the velocity out of a body in so many pendulum times.
-HOLD = 0.6
+HOLD = 1.0
 # Nearer to its path than this, leg lengths, and slower, a body is on it.
 ON_PATH = 1e-9
 # A body moves off its path only if a push leads it farther than this, leg lengths.

@@ -6,9 +6,17 @@ knows of the push. What is decided here is which foot goes before its turn.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from polypod.body.push import NOTICED, caught_at, is_pushed
+from polypod.body.push import (
+    NOTICED,
+    Deflection,
+    caught_at,
+    hold_back,
+    is_pushed,
+    load_deflection,
+)
 from polypod.body.reach import foot_shift, pitched
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
@@ -26,6 +34,60 @@ MOMENTS = 3
 # for so many cycles.
 NEED = 0.02
 STOOD = 0.15
+# A body that is thrown looks so many leg lengths ahead for the end of its legs, in so many halvings
+# of the way, by so many leg lengths closely; it stops there in about so many pendulum times.
+FAR = 0.6
+HALVINGS = 6
+AT_END = 1e-3
+BRACE = 0.25
+
+
+@kernel
+def room_aside(c: int, ahead_x: float, ahead_z: float, state: Any, tables: Any) -> float:
+    """Return how far, m, its standing feet let a body go in a direction on the plane."""
+    place = load_vec3(state.position[c])
+    turn = load_quat(state.rotation[c])
+    tolerance = AT_END * tables.leg_length
+    least = 0.0
+    most = FAR * tables.leg_length
+    for halving in range(HALVINGS):
+        # The whole of it first: most often there is room.
+        way = most if halving == 0 else 0.5 * (least + most)
+        there = place + Vec3(ahead_x * way, 0.0, ahead_z * way)
+        fits = True
+        for k in range(state.swinging.shape[1]):
+            if state.swinging[c, k] or not fits:
+                continue
+            sole = load_vec3(state.foot[c, k])
+            foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+            shift = foot_shift(k, tables, sole, foot_turn, state.foot_bend[c, k, 0], there, turn)
+            fits = length(shift) <= tolerance
+        if fits and halving == 0:
+            return float(way)
+        if fits:
+            least = way
+        else:
+            most = way
+    return float(least)
+
+
+@kernel
+def brace(c: int, dt: float, aside: Deflection, state: Any, tables: Any) -> Deflection:
+    """Return where a push leads a body in a step, braked by legs that come to their end.
+
+    It nears what they reach ever slower, and its velocity dies away meanwhile; once feet have
+    stepped it goes on with what is left.
+    """
+    was = load_deflection(c, state)
+    move_x = aside.x - was.x
+    move_z = aside.z - was.z
+    move = math.hypot(move_x, move_z)
+    if move <= AT_END * AT_END * tables.leg_length:
+        return aside
+    room = room_aside(c, move_x / move, move_z / move, state, tables)
+    most = room * (1.0 - math.exp(-dt / (BRACE * tables.pendulum_time)))
+    share = max(1.0 - most / move, 0.0)
+    return hold_back(was, aside, share * move_x, share * move_z, 1.0, 0.0, 0.0, dt, tables)
 
 
 @kernel

@@ -7,6 +7,7 @@ from typing import Any
 
 from polypod.body.push import hold_back, is_pushed, load_deflection, moved_aside
 from polypod.compute import kernel
+from polypod.controller.balance import brace
 from polypod.controller.course import choose_course
 from polypod.controller.steering import PlanPose, plan_pose, steer
 from polypod.crowd.avoid import FORESIGHT, apart_from, list_neighbours, note_yielding
@@ -64,13 +65,16 @@ def move_body(
     shift_x, shift_z = feedback(c, state, tables, settings)
     x = pose.x + shift_x * dt
     z = pose.z + shift_z * dt
+    aside = pose.aside
+    if is_pushed(aside):
+        aside = brace(c, dt, aside, state, tables)
+        x += aside.x - pose.aside.x
+        z += aside.z - pose.aside.z
+        # Feet that step aside to catch it take it along, and not its path.
+        aside = moved_aside(aside, shift_x * dt, shift_z * dt)
     heading = pose.heading
     turn_rate = pose.turn_rate
     speed = pose.speed
-    aside = pose.aside
-    if is_pushed(aside):
-        # Feet that step aside to catch it take it along, and not its path.
-        aside = moved_aside(aside, shift_x * dt, shift_z * dt)
     if near > 0:
         free_x, free_z, apart = apart_from(c, near, x, z, heading, state, scratch)
         if not apart:

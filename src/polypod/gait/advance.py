@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.push import is_pushed
+from polypod.body.push import Deflection, is_pushed
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, plan_pose, predict
+from polypod.controller.swing import FASTEST_CATCH_UP
 from polypod.gait.needle import minimum_feet_down, turn_needle
-from polypod.gait.tempo import SHORTEST_PERIOD, tempo
+from polypod.gait.tempo import tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
 from polypod.math.intervals import wrap_phase
 
@@ -22,6 +23,10 @@ SOON = 1.5
 SWING_LAG = 0.9
 # Cycles in which a hurry dies away once legs have room again.
 HURRY_CYCLES = 3.0
+# A balance step, twice as quick as the gait's, takes at least so many leg pendulum times; and the
+# way back to the path is as fast as this share of the spring's rate times how far off it is.
+QUICKEST_STEP = 0.45
+WAY_BACK = math.exp(-1.0)
 
 
 @kernel
@@ -47,8 +52,30 @@ def fastest_foot_speed(
         sideways = push_left + turn_rate * along
         most = max(most, math.hypot(forward, sideways))
     if is_pushed(aside):
-        most = math.hypot(most, tables.recovery * math.hypot(aside.x, aside.z))
+        most = math.hypot(most, WAY_BACK * tables.recovery * math.hypot(aside.x, aside.z))
     return most
+
+
+@kernel
+def quickest_period(
+    c: int, pose: PlanPose, duty: float, state: Any, command: Any, tables: Any
+) -> float:
+    """Return the shortest cycle of a pushed creature, s: legs have their own pendulum's time.
+
+    Who is asked to walk quicker than that keeps its tempo.
+    """
+    still = Deflection(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    alone = PlanPose(
+        pose.x, pose.z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner,
+        pose.detour, pose.pace, still,
+    )  # fmt: skip
+    own = tempo(
+        fastest_foot_speed(c, alone, state, command, tables), tables.hip_height, tables.leg_length,
+        tables.upright, command.gait_duty[c, 1], command.gait_duty[c, 2],
+        stance_travel_limit(c, state, command, tables), command.period[c],
+    )  # fmt: skip
+    quickest = FASTEST_CATCH_UP * QUICKEST_STEP * tables.pendulum_time / (1.0 - duty)
+    return min(quickest, own.period)
 
 
 @kernel
@@ -133,8 +160,7 @@ def advance_gait(
         return 0.0
     period = aim.period
     if is_pushed(now.aside):
-        # However hard the push: no legs are quicker.
-        period = max(period, SHORTEST_PERIOD * tables.pendulum_time)
+        period = max(period, quickest_period(c, now, aim.duty, state, command, tables))
     if math.isnan(command.period[c]):
         period /= 1.0 + state.hurry[c]
     state.cycle_rate[c] = 1.0 / period
