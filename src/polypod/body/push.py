@@ -214,6 +214,16 @@ def caught_at(aside: Deflection, recovery: float) -> Deflection:
 
 
 @kernel
+def is_thrown(aside: Deflection, tables: Any) -> bool:
+    """Return whether a push leads a body so far off its path that it is to be noticed."""
+    if not is_pushed(aside):
+        return False
+    caught = caught_at(aside, tables.recovery)
+    way = max(abs(caught.x), abs(caught.z), tables.leg_length * abs(caught.heading))
+    return bool(way > NOTICED * tables.leg_length)
+
+
+@kernel
 def moved_by_push(aside: Deflection, recovery: float, seconds: float) -> tuple[float, float]:
     """Return how far a deflection moves a body in some seconds, world x and z, m."""
     then = recover(aside, recovery, seconds)

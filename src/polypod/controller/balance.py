@@ -9,14 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.push import (
-    NOTICED,
-    Deflection,
-    caught_at,
-    hold_back,
-    is_pushed,
-    load_deflection,
-)
+from polypod.body.push import Deflection, hold_back, is_thrown, load_deflection
 from polypod.body.reach import foot_shift, pitched
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
@@ -118,15 +111,7 @@ def foot_to_catch_with(
     as feet: none, also where too few feet are down: then what is in the air lands first.
     """
     count = state.swinging.shape[1]
-    aside = pose.aside
-    if not is_pushed(aside):
-        return int(count)
-    caught = caught_at(aside, tables.recovery)
-    noticed = NOTICED * tables.leg_length
-    if (
-        max(abs(caught.x), abs(caught.z)) < noticed
-        and abs(caught.heading) * tables.leg_length < noticed
-    ):
+    if not is_thrown(pose.aside, tables):
         return int(count)
     down = 0
     for k in range(count):

@@ -9,6 +9,7 @@ from polypod.body.push import hold_back, is_pushed, load_deflection, moved_aside
 from polypod.compute import kernel
 from polypod.controller.balance import brace
 from polypod.controller.course import choose_course
+from polypod.controller.retreat import note_caught, way_back
 from polypod.controller.steering import PlanPose, plan_pose, steer
 from polypod.crowd.avoid import FORESIGHT, apart_from, list_neighbours, note_yielding
 
@@ -61,8 +62,14 @@ def move_body(
         # It does not turn about for a way out either.
         state.detour[c] = 0.0
         state.pace[c] = 0.0
+    note_caught(c, dt, state, tables)
+    back_x, back_z = way_back(c, state, tables, settings)
+    if state.caught[c] > 0:
+        state.pace[c] = 0.0
     pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
     shift_x, shift_z = feedback(c, state, tables, settings)
+    shift_x += back_x
+    shift_z += back_z
     x = pose.x + shift_x * dt
     z = pose.z + shift_z * dt
     aside = pose.aside
