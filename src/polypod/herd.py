@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from polypod.body.blow import judge_place, land_blow, strike
 from polypod.body.hull import make_hull_scratch
-from polypod.body.push import land_blow, recovery_rate, strike
+from polypod.body.push import recovery_rate
 from polypod.command import Command, numbers_of
 from polypod.config import Settings
 from polypod.controller.lift import WIDEST_SEARCH
@@ -71,22 +72,6 @@ class Scratch(NamedTuple):
     company: Company  # all creatures of the world, as all threads read them
     neighbour: IntArray  # [HEEDED] rows of the company
     neighbour_gap: FloatArray  # [HEEDED] m
-
-
-def judge_place(morphology: Morphology, at: float) -> None:
-    """Refuse a place to push that is not on a creature's trunk; metres ahead of its centre.
-
-    Raises:
-        SettingError: it is not.
-    """
-    body = morphology.body
-    back = float(min(body.box_centre[2] - body.half_size[2], 0.0))
-    front = float(max(body.box_centre[2] + body.half_size[2], 0.0))
-    if not isinstance(at, int | float) or not back <= at <= front:
-        raise SettingError(
-            f"a push at {at!r} is off the trunk of {morphology.name}, which reaches from "
-            f"{back:.3g} to {front:.3g} m ahead of its centre"
-        )
 
 
 class Pose(NamedTuple):

@@ -114,7 +114,7 @@ def prepare_feet(
     from polypod.crowd.legs import is_taken
     from polypod.math.vec3 import Vec3
 
-    pose = PlanPose(*([0.0] * 9), NO_DEFLECTION)
+    pose = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_DEFLECTION)
     prepare(way_blocked, 0, 0, state, tables, env)
     prepare(is_taken, 0, 0, state, tables, scratch)
     prepare(way_on, 0, 0, Vec3(0.0, 0.0, 0.0), 0.0, 0.0, state)
