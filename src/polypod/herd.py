@@ -169,7 +169,7 @@ class Herd:
         """Push creatures: a blow that bends their motion, and that they recover from (P2 6).
 
         The body leaves its path and comes back to it, feet step to where they catch it, and what
-        was asked for still counts. Speeds beyond three times sqrt(g x hip height) are cut to that.
+        was asked for still counts. Speeds beyond 1.5 sqrt(g x hip height) are cut to that.
 
         Args:
             velocity: [3] or [creatures, 3], by how much the struck place's velocity changes; world,

@@ -20,7 +20,7 @@ RECOVERY = 0.5
 LOWEST_HIP = 0.3
 # The hardest push that legs can answer, in sqrt(g h), and the farthest it turns a body, rad: what
 # is more is lost.
-HARDEST = 3.0
+HARDEST = 1.5
 FARTHEST_TURN = 0.8
 # A body tips in the push's direction as one that pivots over its feet, at most at this share of the
 # pendulum's rate, rad.
