@@ -19,7 +19,7 @@ from polypod.controller.roll import roll_standing, roll_swinging
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.crowd.avoid import apart_from, list_neighbours
-from polypod.environment.movers import clear_of_movers
+from polypod.environment.movers import clear_of_movers, depth_in_mover
 from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
@@ -27,6 +27,8 @@ from polypod.morphology.roll import FLAT
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
+# A body is moved so often to where its feet have been carried.
+CARRIED_TRIES = 4
 # The body rises or sinks at most so many leg lengths a pendulum time, and turns so many radians.
 FASTEST_RISE = 0.4
 FASTEST_TILT = 0.8
@@ -69,6 +71,17 @@ def chord_is_free(dt: float, accepted: float, before: Vec3, after: Vec3, env: An
 
 
 @kernel
+def cleared(env: Any, place: Vec3, ahead: float, own: int, accepted: float) -> Vec3:
+    """Return a place, or the one by it that nothing that moves takes up `ahead` s from now.
+
+    What the foot is to land on, `own`, is left alone up to a depth of `accepted`, m.
+    """
+    if own >= 0 and depth_in_mover(env, own, place, ahead) > accepted:
+        own = -1
+    return clear_of_movers(env, place, ahead, own)
+
+
+@kernel
 def pushed_aside(c: int, k: int, sole: Vec3, state: Any, tables: Any, env: Any) -> Vec3:
     """Return where a foot gets in a frame in which something comes without warning, world.
 
@@ -77,11 +90,12 @@ def pushed_aside(c: int, k: int, sole: Vec3, state: Any, tables: Any, env: Any) 
     own = state.landing_support[c, k]
     before = load_vec3(state.foot_shown[c, k])
     dt = state.frame[c]
-    sole = clear_of_movers(env, sole, 0.0, own)
+    accepted = CUT * tables.legs.length[k]
+    sole = cleared(env, sole, 0.0, own, accepted)
     for j in range(1, PUSHES):
         share = j / PUSHES
         place = mix(before, sole, share)
-        push = (clear_of_movers(env, place, (share - 1.0) * dt, own) - place) * (1.0 / share)
+        push = (cleared(env, place, (share - 1.0) * dt, own, accepted) - place) * (1.0 / share)
         size = length(push)
         most = LARGEST_PUSH * tables.legs.length[k]
         sole = sole + push * (min(size, most) / max(size, 1e-12))
@@ -213,8 +227,11 @@ def settle_body(
         fits = apart and feet_fit(c, position, turned, state, tables, scratch)
         if share == 0.0 and not fits and env.mover_count > 0:
             # What some feet stand on has carried the body away from the others.
-            position = body_within_reach(c, state, tables, scratch, position, turned)
-            fits = feet_fit(c, position, turned, state, tables, scratch)
+            for _ in range(CARRIED_TRIES):
+                position = body_within_reach(c, state, tables, scratch, position, turned)
+                fits = feet_fit(c, position, turned, state, tables, scratch)
+                if fits:
+                    break
         if fits or share == 0.0:
             state.held[c] = share
             store_vec3(state.position[c], position)
