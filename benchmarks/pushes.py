@@ -39,7 +39,7 @@ ALWAYS = ("slip", "off", "inside", "limits deg", "bones")
 USUAL = ("residual", "swing in", "swing res")
 GENTLE = 1.0
 # Who is back is so near to its twin's path, leg lengths: on rough ground each finds its own way.
-BACK = {"flat": 0.02}
+BACK = {"flat": 0.04}
 BACK_ELSEWHERE = 0.35
 
 
@@ -56,8 +56,9 @@ class Pushed(NamedTuple):
 
 
 def take(
-    morphology: Morphology, place: str, speed: float, strength: float, seconds: float, fps: float
-) -> tuple[list[Recording], list[Recording], Environment]:
+    morphology: Morphology, place: str, speed: float, strength: float, seconds: float, fps: float,
+    sides: int = SIDES,
+) -> tuple[list[Recording], list[Recording], Environment]:  # fmt: skip
     """Return the walks of those that are pushed, of their twins, and where."""
     # Above what they walk on when they are pushed, crates lie all about.
     ahead = default_speed(morphology) * seconds
@@ -66,10 +67,10 @@ def take(
     for share in (strength, 0.0):
         world = World(environment, threads=1)
         alone = Settings(personal_space=0.0)
-        world.add(morphology, SIDES, position=[0.0, 0.0], speed=speed, settings=alone)
+        world.add(morphology, sides, position=[0.0, 0.0], speed=speed, settings=alone)
         size = share * math.sqrt(GRAVITY * hip_height(morphology))
-        for side in range(SIDES if share > 0.0 else 0):
-            angle = 2.0 * math.pi * side / SIDES
+        for side in range(sides if share > 0.0 else 0):
+            angle = 2.0 * math.pi * side / sides
             push = (size * math.sin(angle), 0.0, size * math.cos(angle))
             world.push_at(PUSHED_AT, push, side)
         walks.append(record_walk(world, seconds, fps))

@@ -208,11 +208,11 @@ class World:
         """
         if not isinstance(time, int | float) or not self.time <= time < math.inf:
             raise SettingError(f"a push at {time!r} s; the time must be from {self.time:g} s on")
-        row = creature
+        row = creature if isinstance(creature, int | np.integer) else -1
         for herd in self.herds:
-            if isinstance(row, int) and 0 <= row < herd.count:
-                _, given = herd.judge_push(velocity, row, at)
-                self._pushes.append(Push(time, herd, row, given[0], at))
+            if 0 <= row < herd.count:
+                _, given = herd.judge_push(velocity, int(row), at)
+                self._pushes.append(Push(time, herd, int(row), given[0], at))
                 return
             row -= herd.count
         count = sum(herd.count for herd in self.herds)

@@ -29,8 +29,8 @@ MOST_TIP = 1.0
 HOLD = 1.0
 # Nearer to its path than this, leg lengths, and slower, a body is on it.
 ON_PATH = 1e-9
-# A body moves off its path only if a push leads it farther than this, leg lengths.
-NOTICED = 1e-3
+# Feet need not step for a push that leads the body less far off its path, leg lengths.
+NOTICED = 0.03
 
 
 class Deflection(NamedTuple):
