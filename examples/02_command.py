@@ -1,4 +1,4 @@
-"""A herd on hills is given other orders while it walks: speed, heading, gait, spacing, height."""
+"""A herd on hills is given other orders while it walks, and is pushed: speed, gait, height."""
 
 import numpy as np
 
@@ -24,6 +24,8 @@ herd.command.set_gait(make_gait("wave", spider.legs.side, spider.legs.row))
 walk(1.0)
 herd.command.body_height = 0.8 * spider.body.height  # it ducks
 herd.command.spacing = 0.1 * np.sign(spider.legs.sole_stance[:, [0, 2]])  # and spreads its feet
+walk(1.0)
+herd.push([0.4, 0.0, 0.0], creature=0)  # m/s: it steps aside to catch itself, and comes back
 walk(1.0)
 herd.command.speed = 0.0
 walk(1.0)

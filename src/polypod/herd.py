@@ -7,15 +7,19 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from polypod.body.blow import judge_place, land_blow, strike
 from polypod.body.hull import make_hull_scratch
-from polypod.command import Command
+from polypod.body.push import recovery_rate
+from polypod.command import Command, numbers_of
 from polypod.config import Settings
 from polypod.controller.lift import WIDEST_SEARCH
 from polypod.controller.spawn import WIDEST_SPAWN
 from polypod.crowd.avoid import HEEDED
 from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
+from polypod.errors import SettingError
 from polypod.footprints.plan import PlanScratch, make_plan_scratch
 from polypod.footprints.settings import PlanSettings
 from polypod.gait.tempo import GRAVITY
@@ -42,6 +46,7 @@ STEP_UPRIGHT = 0.115
 STEP_SPRAWLING = 0.175
 # Part of what a leg can fold in stance that a step on level ground may take.
 FOLDING = 0.4
+FASTEST = 1e3  # m/s, of any push
 # Ways are looked for in a map so far to each side, and a cell, leg lengths; steps within less.
 SIGHT = (0.5 * ROUTE_CELLS + 1.0) * CELL
 
@@ -102,6 +107,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,
         upright=upright,
         stance_travel=float(ik.stance_travel.min()),
+        recovery=recovery_rate(hip_height, leg_length),
     )
 
 
@@ -157,6 +163,48 @@ class Herd:
         self._company = company
         self._scratch.clear()
 
+    def push(
+        self, velocity: ArrayLike, creature: int | slice = slice(None), *, at: float = 0.0
+    ) -> None:
+        """Push creatures: a blow that bends their motion, and that they recover from (P2 6).
+
+        The body leaves its path and comes back to it, feet step to where they catch it, and what
+        was asked for still counts. Speeds beyond 1.5 sqrt(g x hip height) are cut to that.
+
+        Args:
+            velocity: [3] or [creatures, 3], by how much the struck place's velocity changes; world,
+                m/s.
+            creature: who is pushed; all where omitted.
+            at: how far ahead of the body's centre it is struck, m, within the trunk; behind it
+                where negative. Away from the centre the body turns as well, and is moved less.
+
+        Raises:
+            SettingError: no such creature, no velocity, or a place off the trunk.
+        """
+        rows, given = self.judge_push(velocity, creature, at)
+        state, tables = self.state, self.tables
+        blow = strike(given, state.heading[rows], at, tables.body, tables.recovery)
+        land_blow(blow, rows, state, tables)
+
+    def judge_push(
+        self, velocity: ArrayLike, creature: int | slice, at: float
+    ) -> tuple[IntArray, FloatArray]:
+        """Return the rows [N] and velocities [N, 3] of a push; what it refuses is `push`'s."""
+        try:
+            rows = np.atleast_1d(np.arange(self.count)[creature])
+        except (IndexError, TypeError):
+            raise SettingError(
+                f"creature is {creature!r}; it must be from 0 to {self.count - 1}"
+            ) from None
+        numbers = numbers_of("a push's velocity", velocity, "m/s")
+        if numbers.shape not in ((3,), (len(rows), 3)) or not np.all(np.abs(numbers) <= FASTEST):
+            raise SettingError(
+                f"a push's velocity is {velocity!r}; it must be x, y, z up to {FASTEST:g} m/s, "
+                f"or [{len(rows)}, 3] of them"
+            )
+        judge_place(self.morphology, at)
+        return rows, np.broadcast_to(numbers, (len(rows), 3))
+
     @property
     def settings(self) -> Settings:
         """How the walk is controlled; may be replaced between steps, and feet do not jump.
@@ -200,7 +248,10 @@ class Herd:
         spacing = np.maximum(np.abs(self.command.arrays.spacing), np.abs(self.state.spacing))
         spaced = spacing.sum(axis=2).max(axis=1)
         speed = np.maximum(self.command.arrays.speed, self.state.speed)
-        return np.asarray(own + spaced + dt * speed)
+        thrown = np.hypot(self.state.deflection[:, 3], self.state.deflection[:, 4])
+        off = np.hypot(self.state.deflection[:, 0], self.state.deflection[:, 1])
+        pushed = off + thrown * (dt + 1.0 / self.tables.recovery)
+        return np.asarray(own + spaced + dt * speed + pushed)
 
     @property
     def pose(self) -> Pose:

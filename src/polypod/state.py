@@ -39,6 +39,7 @@ class HerdTables(NamedTuple):
     track: float  # m, half the width of the way that the feet take
     stance_travel: float  # m, the least of all legs': how far a body goes over a standing foot
     level_weight: float  # how much a foot prefers to land where the others stand
+    recovery: float  # 1/s, of the spring that brings a pushed body back to its path
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
 
 
@@ -53,7 +54,8 @@ class HerdState(NamedTuple):
     waypoint: IntArray  # [C] index of the waypoint being approached
     travelled: FloatArray  # [C] m, along the way asked for
     route: RouteState  # the way to that waypoint
-    steered: FloatArray  # [C, 9] PlanPose: where steering wants the body at the end of the step
+    deflection: FloatArray  # [C, 6] polypod.body.push.Deflection: how far it is off its path
+    steered: FloatArray  # [C, 15] PlanPose: where steering wants the body at the end of the step
     needle: FloatArray  # [C] phase of the gait in [0, 1)
     turn: FloatArray  # [C] cycles by which the needle turned in this step
     cycle_rate: FloatArray  # [C] cycles a second
@@ -255,7 +257,8 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         "roll_start": (c, k, 4),
         "roll_plan": (c, k, 3),
         "spacing": (c, k, 2),
-        "steered": (c, 9),
+        "deflection": (c, 6),
+        "steered": (c, 15),
         "slope": (c, 2),
         "asked": (c, 4),
         "judged": (c, 3),

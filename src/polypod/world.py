@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,7 +26,7 @@ from polypod.gait.needle import minimum_feet_down
 from polypod.gait.pattern import Gait
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
-from polypod.morphology.types import Morphology
+from polypod.morphology.types import FloatArray, Morphology
 from polypod.reference import by_reference
 
 LONGEST_STEP = 1.0
@@ -43,6 +43,16 @@ def set_disks(c: int, phase: float, state: Any, command: Any) -> None:
     state.needle[c] = phase
     for k in range(state.stood.shape[1]):
         state.stood[c, k] = 1.0
+
+
+class Push(NamedTuple):
+    """A push that is planned."""
+
+    time: float  # s
+    herd: Herd
+    row: int  # of the herd
+    velocity: FloatArray  # [3]
+    at: float  # m
 
 
 class World:
@@ -71,6 +81,7 @@ class World:
         self.herds: list[Herd] = []
         self._meet()
         self.time = 0.0
+        self._pushes: list[Push] = []
         self.threads = thread_count() if threads is None else max(1, int(threads))
 
     def add(
@@ -181,6 +192,44 @@ class World:
         size = herd.tables.hip_height if herd.tables.upright else herd.tables.leg_length
         return default_gait(legs.side, legs.row, legs.upright, speed * speed / (9.81 * size))
 
+    def push_at(
+        self, time: float, velocity: ArrayLike, creature: int = 0, *, at: float = 0.0
+    ) -> None:
+        """Plan a push, which acts at the beginning of the frame nearest to its time.
+
+        Args:
+            time: s, from now on.
+            velocity: [3] as in `Herd.push`.
+            creature: counts the creatures of all herds, in their order.
+            at: as in `Herd.push`.
+
+        Raises:
+            SettingError: a time that has passed, or what `Herd.push` refuses.
+        """
+        if not isinstance(time, int | float) or not self.time <= time < math.inf:
+            raise SettingError(f"a push at {time!r} s; the time must be from {self.time:g} s on")
+        row = creature if isinstance(creature, int | np.integer) else -1
+        for herd in self.herds:
+            if 0 <= row < herd.count:
+                _, given = herd.judge_push(velocity, int(row), at)
+                self._pushes.append(Push(time, herd, int(row), given[0], at))
+                return
+            row -= herd.count
+        count = sum(herd.count for herd in self.herds)
+        raise SettingError(f"creature is {creature!r}; it must be from 0 to {count - 1}")
+
+    def _push(self, dt: float) -> None:
+        """Carry out the pushes whose time has come."""
+        if not self._pushes:
+            return
+        later = []
+        for push in self._pushes:
+            if push.time < self.time + 0.5 * dt:
+                push.herd.push(push.velocity, push.row, at=push.at)
+            else:
+                later.append(push)
+        self._pushes = later
+
     def step(self, dt: float) -> None:
         """Advance everything by `dt` seconds.
 
@@ -189,6 +238,7 @@ class World:
         """
         if not 0.0 < dt <= LONGEST_STEP:
             raise SettingError(f"a step of {dt!r} s; it must be above 0 and at most {LONGEST_STEP}")
+        self._push(dt)
         self.environment.advance(self.time + dt)
         self._load_ground(dt)
         self.look_round()

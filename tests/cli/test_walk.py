@@ -144,11 +144,37 @@ def test_seed_moves_the_crates(folder: Path) -> None:
     assert np.abs(places[0] - places[1]).max() > 0.1
 
 
-def test_pushes_are_said_to_be_left_out(folder: Path) -> None:
-    Path("push.toml").write_text("[[push]]\ntime = 0.2\nvelocity = [1, 0, 0]\n")
-    run = polypod("walk", "--scene", "push.toml", *SHORT)
+def test_pushes_act_at_their_time(folder: Path) -> None:
+    scene = "[[push]]\ntime = 0.1\nvelocity = [{}, 0, 0]\nat = 0.05\n"
+    bodies = []
+    for speed in ("0.6", "0"):
+        Path("push.toml").write_text(scene.format(speed))
+        run = polypod("walk", "--scene", "push.toml", *SHORT, "--record", "run.npz")
+        assert run.code == 0, run
+        bodies.append(read_record(folder / "run.npz"))
+    gap = bodies[0].body_position[:, 0] - bodies[1].body_position[:, 0]
+    pushed = bodies[0].time > 0.1 + 1e-9
+    assert np.all(gap[~pushed] == 0.0)
+    assert np.all(gap[pushed] > 0.005)
+
+
+def test_pushes_that_nobody_gets_are_said_to_be_left_out(folder: Path) -> None:
+    Path("push.toml").write_text(
+        "[[push]]\ntime = 9.0\nvelocity = [1, 0, 0]\n"
+        "[[push]]\ntime = 0.1\nvelocity = [1, 0, 0]\ncreature = 1\n"
+        '[[creature]]\nrig = "spider"\ncount = 2\n'
+    )
+    run = polypod("walk", "spider", "--scene", "push.toml", *SHORT)
     assert run.code == 0, run
-    assert "pushes" in run.err
+    assert "[[push]] number 1 is at 9 s" in run.err
+    assert "[[push]] number 2 is for creature 1" in run.err
+
+
+def test_a_push_beside_the_trunk_is_refused_before_anything_is_compiled(folder: Path) -> None:
+    Path("push.toml").write_text("[[push]]\ntime = 0.1\nvelocity = [1, 0, 0]\nat = 3.0\n")
+    run = polypod("walk", "--scene", "push.toml", *SHORT, "-o", "walk.glb")
+    assert_refused(run, "push.toml", "[[push]] number 1", "trunk")
+    assert not Path("walk.glb").exists()
 
 
 def test_speeds_beyond_the_legs_are_said(folder: Path) -> None:

@@ -37,6 +37,7 @@ def make_world(threads: int, count: int = COUNT, space: float = 1.0) -> World:
     settings = Settings(personal_space=space)
     herd = world.add(spider, count, position=places, speed=SPEED, settings=settings)
     herd.command.heading = np.linspace(-0.4, 0.4, COUNT)[:count]
+    herd.push([0.7, 0.1, 0.4], 0, at=0.05)
     return world
 
 

@@ -57,6 +57,7 @@ path = [[0, 0], [4, 4.5]]
 creature = 2
 time = 3.0
 velocity = [0.5, 0.0, 0.0]
+at = -0.1
 """
 
 
@@ -77,6 +78,7 @@ def test_everything_is_read(tmp_path: Path) -> None:
     assert scene.creatures[0].count == 3
     assert scene.creatures[0].height is None
     assert scene.pushes[0].velocity == (0.5, 0.0, 0.0)
+    assert scene.pushes[0].at == -0.1
     assert isinstance(scene.environment(), Environment)
 
 
@@ -195,6 +197,8 @@ SCATTER = "[[scatter]]\ncount = 1\narea = [0, 0, 1, 1]\n"
         (CREATURE + "position = [1e9, 0]", ["position"]),
         ("[[push]]\ntime = 1\nvelocity = [0, 0, 0]\ncreature = 1", ["creature = 1", "0 to 0"]),
         ("[[push]]\nvelocity = [0, 0, 0]", ["needs time"]),
+        ("[[push]]\ntime = 1\nvelocity = [0, 0]", ["velocity = [0, 0]", "x, y, z"]),
+        ("[[push]]\ntime = 1\nvelocity = [0, 0, 0]\nat = 'head'", ["at = 'head'"]),
     ],
 )
 def test_one_sentence_names_file_place_and_choices(

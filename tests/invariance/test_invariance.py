@@ -44,8 +44,12 @@ def walk(
     shift: float = 0.0,
     height: float = 0.0,
     time_scale: float = 1.0,
+    push: tuple[float, float] = (0.0, 0.0),
 ) -> Walked:
-    """Walk straight on for a second and then along a turn; `shift` of the cycle ahead."""
+    """Walk straight on for a second and then along a turn; `shift` of the cycle ahead.
+
+    Half a second later a blow to the front gives it a velocity, `push`: ahead and left.
+    """
     world = World(Terrain.flat(height), threads=1)
     herd = world.add(morphology, position=position, heading=heading, speed=speed)
     herd.command.travel = travel
@@ -55,6 +59,11 @@ def walk(
     for frame in range(round(SECONDS * FPS)):
         if frame == round(FPS):
             herd.command.heading = heading + turn
+        if frame == round(1.5 * FPS) and push != (0.0, 0.0):
+            sine, cosine = math.sin(heading), math.cos(heading)
+            ahead, left = push
+            blow = [ahead * sine + left * cosine, 0.0, ahead * cosine - left * sine]
+            herd.push(blow, at=0.5 * float(morphology.body.half_size[2]))
         world.step(time_scale / FPS)
         state = herd.state
         frames.append(
@@ -117,12 +126,16 @@ def test_turned(creature: Morphology, base: Walked, angle: float) -> None:
     assert_same(base, unturned, unit(creature))
 
 
-@pytest.mark.parametrize(("turn", "travel"), [(0.9, 0.0), (0.0, 0.3)])
-def test_mirrored(creature: Morphology, turn: float, travel: float) -> None:
+@pytest.mark.parametrize(
+    ("turn", "travel", "push"), [(0.9, 0.0, 0.0), (0.0, 0.3, 0.0), (0.9, 0.0, 1.5)]
+)
+def test_mirrored(creature: Morphology, turn: float, travel: float, push: float) -> None:
     """Left for right, with the other side's feet half a cycle on: the gaits are symmetric."""
     speed = brisk(creature)
-    left = walk(creature, speed=speed, turn=turn, travel=travel)
-    right = walk(creature, speed=speed, turn=-turn, travel=-travel, shift=0.5)
+    left = walk(creature, speed=speed, turn=turn, travel=travel, push=(0.0, push * speed))
+    right = walk(
+        creature, speed=speed, turn=-turn, travel=-travel, shift=0.5, push=(0.0, -push * speed)
+    )
     swap = mirrored_feet(creature)
     flip = np.array([-1.0, 1.0, 1.0])
     joints = mirrored_joints(creature)
@@ -133,6 +146,18 @@ def test_mirrored(creature: Morphology, turn: float, travel: float) -> None:
         right.swinging[:, swap],
     )
     assert_same(left, mirrored, unit(creature))
+
+
+@pytest.mark.parametrize("strength", [0.5, 2.5])
+def test_pushed_and_turned(creature: Morphology, strength: float) -> None:
+    push = (0.5 * strength * brisk(creature), 1.5 * strength * brisk(creature))
+    base = walk(creature, speed=brisk(creature), push=push)
+    turned = walk(creature, speed=brisk(creature), heading=-2.0, push=push)
+    back = np.array([0.0, math.sin(1.0), 0.0, math.cos(1.0)])
+    unturned = turned._replace(
+        **{name: rotate_all(back, getattr(turned, name)) for name in ("body", "feet", "joints")}
+    )
+    assert_same(base, unturned, unit(creature))
 
 
 def mirrored_feet(morphology: Morphology) -> list[int]:
@@ -160,8 +185,8 @@ def test_scaled(scale: float) -> None:
     """
     small = load_rig("spider", height=0.4)
     large = load_rig("spider", height=0.4 * scale)
-    base = walk(small, speed=brisk(small))
-    scaled = walk(large, speed=brisk(large), time_scale=math.sqrt(scale))
+    base = walk(small, speed=brisk(small), push=(0.0, brisk(small)))
+    scaled = walk(large, speed=brisk(large), time_scale=math.sqrt(scale), push=(0.0, brisk(large)))
     back = scaled._replace(
         body=scaled.body / scale, feet=scaled.feet / scale, joints=scaled.joints / scale
     )

@@ -7,12 +7,13 @@ import math
 import numpy as np
 import pytest
 
+from polypod.body.push import NO_DEFLECTION
 from polypod.config import Settings
 from polypod.controller.steering import CYCLE, PREDICTION_STEPS, PlanPose, predict, steer
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 
-REST = PlanPose(*[0.0] * len(PlanPose._fields))._replace(pace=1.0)
+REST = PlanPose(*[0.0] * 9, NO_DEFLECTION)._replace(pace=1.0)
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from polypod.body.hull import least_height
+from polypod.body.push import moved_by_push
 from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane
@@ -89,15 +90,18 @@ def highest(
     That is where feet stand; where those about to land will be met by a body that has moved on
     until then; and where those would go that found no place, which lets the body sink farther.
     """
-    course = pose.heading + command.travel[c]
+    course = pose.heading - pose.aside.heading + command.travel[c]
     shallow = math.inf
     deep = math.inf
     for k in range(state.swinging.shape[1]):
         place = load_vec3(state.foot_target[c, k])
         foot_turn = load_quat(state.foot_rotation_target[c, k])
         if state.swinging[c, k]:
-            way = pose.speed * swing_time_left(c, k, state)
-            place = place - Vec3(math.sin(course) * way, 0.0, math.cos(course) * way)
+            left = swing_time_left(c, k, state)
+            way = pose.speed * left
+            push_x, push_z = moved_by_push(pose.aside, tables.recovery, left)
+            x = math.sin(course) * way + push_x
+            place = place - Vec3(x, 0.0, math.cos(course) * way + push_z)
         elif state.waiting[c, k] > 0.0:
             wish = load_vec3(state.wish[c, k])
             deep = min(deep, highest_over(k, wish, foot_turn, pose, turn, tables) - base)
@@ -135,7 +139,7 @@ def highest_soon(
         z = pose.z + (there.z - pose.z) * share
         later = PlanPose(
             x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner, pose.detour,
-            pose.pace,
+            pose.pace, pose.aside,
         )  # fmt: skip
         rise = rise_along(pose, x, z, plane)
         for k in range(state.swinging.shape[1]):
@@ -161,13 +165,15 @@ def highest_ahead(
     """
     cycle = 1.0 / state.cycle_rate[c]
     rise = rise_along(pose, there.x, there.z, plane)
-    course = there.heading + command.travel[c]
+    course = there.heading - there.aside.heading + command.travel[c]
     most = math.inf
     for k in range(state.swinging.shape[1]):
+        stance = cycle * (1.0 - state.goal_extent[c, k])
         half = 0.5 * there.speed * cycle * (1.0 - state.goal_extent[c, k])
+        push_x, push_z = moved_by_push(there.aside, tables.recovery, 0.5 * stance)
         offset = rest_offset(c, k, there.heading, state, tables, settings)
-        x = there.x + offset.x + math.sin(course) * half
-        z = there.z + offset.z + math.cos(course) * half
+        x = there.x + offset.x + math.sin(course) * half + push_x
+        z = there.z + offset.z + math.cos(course) * half + push_z
         y, _ = surface(env, x, z)
         foot_turn = load_quat(state.foot_rotation_target[c, k])
         over = highest_over(k, Vec3(x, y, z), foot_turn, there, turn, tables)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import caught_at, is_pushed, load_deflection
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.controller.feet import preferred_footprint
@@ -44,14 +45,18 @@ def is_moving(c: int, state: Any, tables: Any) -> bool:
 def off_place(c: int, k: int, state: Any, tables: Any, settings: Any) -> bool:
     """Return whether a foot stands too far from its rest place under a standing body.
 
-    Who stands because it makes no headway keeps its feet where they are.
+    Under one that is pushed that is the place from where it catches the body. Who stands because it
+    makes no headway keeps its feet where they are.
     """
-    if state.halted[c] > 0.0:
+    aside = load_deflection(c, state)
+    if state.halted[c] > 0.0 and not is_pushed(aside):
         return False
-    offset = rest_offset(c, k, state.heading[c], state, tables, settings)
+    caught = caught_at(aside, tables.recovery)
+    heading = state.heading[c] - aside.heading + caught.heading
+    offset = rest_offset(c, k, heading, state, tables, settings)
     # Against what it asked for: what it could not have then is no reason to step for ever.
-    gap_x = state.position[c, 0] + offset.x - state.foot_preferred[c, k, 0]
-    gap_z = state.position[c, 2] + offset.z - state.foot_preferred[c, k, 2]
+    gap_x = state.position[c, 0] - aside.x + caught.x + offset.x - state.foot_preferred[c, k, 0]
+    gap_z = state.position[c, 2] - aside.z + caught.z + offset.z - state.foot_preferred[c, k, 2]
     return math.hypot(gap_x, gap_z) > IN_PLACE * tables.legs.length[k]
 
 

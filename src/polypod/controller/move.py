@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import hold_back, is_pushed, load_deflection, moved_aside
 from polypod.compute import kernel
+from polypod.controller.balance import brace
 from polypod.controller.course import choose_course
 from polypod.controller.retreat import note_caught, way_back
 from polypod.controller.steering import PlanPose, plan_pose, steer
@@ -65,9 +67,18 @@ def move_body(
     if state.caught[c] > 0:
         state.pace[c] = 0.0
     pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
-    x, z = feedback(c, state, tables, settings)
-    x = pose.x + (x + back_x) * dt
-    z = pose.z + (z + back_z) * dt
+    shift_x, shift_z = feedback(c, state, tables, settings)
+    shift_x += back_x
+    shift_z += back_z
+    x = pose.x + shift_x * dt
+    z = pose.z + shift_z * dt
+    aside = pose.aside
+    if is_pushed(aside):
+        aside = brace(c, dt, aside, state, tables)
+        x += aside.x - pose.aside.x
+        z += aside.z - pose.aside.z
+        # Feet that step aside to catch it take it along, and not its path.
+        aside = moved_aside(aside, shift_x * dt, shift_z * dt)
     heading = pose.heading
     turn_rate = pose.turn_rate
     speed = pose.speed
@@ -81,6 +92,11 @@ def move_body(
         asked = math.hypot(x - state.position[c, 0], z - state.position[c, 2])
         left = math.hypot(free_x - state.position[c, 0], free_z - state.position[c, 2])
         speed *= min(left / max(asked, 1e-12), 1.0)
+        was = load_deflection(c, state)
+        turned = 1.0 if apart else 0.0
+        course = heading - aside.heading + command.travel[c]
+        way = 0.5 * (state.speed[c] + speed) * dt
+        aside = hold_back(was, aside, x - free_x, z - free_z, turned, course, way, dt, tables)
         x = free_x
         z = free_z
     return PlanPose(
@@ -93,4 +109,5 @@ def move_body(
         pose.corner,
         pose.detour,
         pose.pace,
+        aside,
     )

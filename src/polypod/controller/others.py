@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import moved_by_push
 from polypod.body.reach import effector_world
 from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
@@ -87,10 +88,12 @@ def foot_later(
         return here
     share = min((seconds - wait) * rate / extent, 1.0)
     offset = rest_offset(c, k, then.heading, state, tables, settings)
-    half = 0.5 * (1.0 - extent) / rate * then.speed
-    course = then.heading + command.travel[c]
-    x = then.x + offset.x + math.sin(course) * half
-    z = then.z + offset.z + math.cos(course) * half
+    half = 0.5 * (1.0 - extent) / rate
+    way = half * then.speed
+    course = then.heading - then.aside.heading + command.travel[c]
+    push_x, push_z = moved_by_push(then.aside, tables.recovery, half)
+    x = then.x + offset.x + math.sin(course) * way + push_x
+    z = then.z + offset.z + math.cos(course) * way + push_z
     height, _ = surface(env, x, z)
     rise = command.step_height[c] * 4.0 * share * (1.0 - share)
     return mix(here, Vec3(x, height, z), smooth_step(share)) + Vec3(0.0, rise, 0.0)

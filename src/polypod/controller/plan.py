@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from polypod.compute import kernel
+from polypod.controller.balance import foot_to_catch_with, is_due
 from polypod.controller.feet import plan_foot, preferred_footprint
 from polypod.controller.lift import (
     feet_needed,
@@ -70,6 +71,9 @@ def plan_feet(
             first = k + 1
             step_out(c, k, state, tables, env)
         else:
+            k = foot_to_catch_with(c, pose, state, command, tables, settings, scratch)
+            in_turn = is_due(c, k, state, settings)
+        if k == state.swinging.shape[1]:
             k = next_foot_to_lift(
                 state.needle[c], state.swing_start[c], state.swing_extent[c], state.swinging[c],
                 state.stood[c], scratch.held, feet_needed(c, state), settings.late_lift, landing,

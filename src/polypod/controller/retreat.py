@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import is_thrown, load_deflection
 from polypod.compute import kernel
 from polypod.controller.rest import rest_offset
 
@@ -45,6 +46,8 @@ def note_caught(c: int, dt: float, state: Any, tables: Any, env: Any) -> None:
             away = -SHY * tables.legs.side[k]
             state.shy[c] = min(max(state.shy[c] + away, -MOST_SHY), MOST_SHY)
         return
+    if is_thrown(load_deflection(c, state), tables):
+        return  # its feet wait for the body to come to them
     most = 1.0
     for k in range(count):
         if not state.swinging[c, k] and env.forbidden_count == 0:

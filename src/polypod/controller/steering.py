@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
+from polypod.body.push import Deflection, hold_back, load_deflection, recover, store_deflection
 from polypod.compute import kernel
 from polypod.math.vec3 import Vec3
 from polypod.routes.aim import next_aim, way_left
@@ -46,6 +47,7 @@ class PlanPose(NamedTuple):
     corner: float  # index of the corner on the way there that is being approached
     detour: float  # rad by which the heading asked for is left aside, to pass what is forbidden
     pace: float  # share of the speed asked for that others leave it
+    aside: Deflection  # by what a push the body is off its path; x, z, heading include it
 
 
 @kernel
@@ -72,9 +74,14 @@ def steer(
     """Return the pose on the plane `dt` seconds later.
 
     The turn rate approaches what removes the error of heading, and the speed what was asked for,
-    within bounds that scale with the animal; it stops at the last waypoint. Of the state it reads
-    the way that is known.
+    within bounds that scale with the animal; it stops at the last waypoint. All that is about the
+    path; what a push led the body off it dies away beside. Of the state it reads the way that is
+    known.
     """
+    on_x = pose.x - pose.aside.x
+    on_z = pose.z - pose.aside.z
+    on_heading = pose.heading - pose.aside.heading
+    aside = recover(pose.aside, tables.recovery, dt)
     pendulum = tables.pendulum_time
     acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
     travel = command.travel[c]
@@ -83,16 +90,14 @@ def steer(
     waypoint = pose.waypoint
     corner = pose.corner
     if command.waypoint_count[c] > 0:
-        aim = next_aim(
-            pose.x, pose.z, int(pose.waypoint), int(pose.corner), c, state, command, tables
-        )
+        aim = next_aim(on_x, on_z, int(pose.waypoint), int(pose.corner), c, state, command, tables)
         waypoint = float(aim.waypoint)
         corner = float(aim.corner)
         away = math.hypot(aim.to_x, aim.to_z)
-        heading_asked = pose.heading
+        heading_asked = on_heading
         if not aim.stops or away > HEADING_RADIUS * tables.leg_length:
             heading_asked = math.atan2(aim.to_x, aim.to_z) - travel
-        course = pose.heading + travel
+        course = on_heading + travel
         left = max(math.sin(course) * aim.to_x + math.cos(course) * aim.to_z, 0.0)
         # Who goes round something does not head for the place, and is not there yet.
         if pose.detour != 0.0 and away > tables.leg_length:
@@ -103,9 +108,9 @@ def steer(
         if aim.stops and left <= nearest * tables.leg_length:
             left = 0.0
         if not aim.stops:
-            left = way_left(pose.x, pose.z, aim, c, state, command)
+            left = way_left(on_x, on_z, aim, c, state, command)
         speed_asked = min(speed_asked, math.sqrt(acceleration * left), left / dt)
-    error = wrapped(heading_asked + pose.detour - pose.heading)
+    error = wrapped(heading_asked + pose.detour - on_heading)
     # Who must turn far turns first: full speed would circle round the place it is to go to.
     speed_asked *= min(1.0, max(0.1, 1.4 * math.cos(error)))
     response = settings.turn_response * pendulum
@@ -116,12 +121,12 @@ def steer(
     )
     change = acceleration * dt
     speed = pose.speed + min(change, max(-2.0 * change, speed_asked - pose.speed))
-    heading = wrapped(pose.heading + turn_rate * dt)
-    course = pose.heading + 0.5 * turn_rate * dt + travel
+    heading = wrapped(on_heading + turn_rate * dt + aside.heading)
+    course = on_heading + 0.5 * turn_rate * dt + travel
     advance = 0.5 * (pose.speed + speed) * dt
     return PlanPose(
-        pose.x + math.sin(course) * advance,
-        pose.z + math.cos(course) * advance,
+        on_x + math.sin(course) * advance + aside.x,
+        on_z + math.cos(course) * advance + aside.z,
         heading,
         turn_rate,
         speed,
@@ -129,6 +134,7 @@ def steer(
         corner,
         pose.detour,
         pose.pace,
+        aside,
     )
 
 
@@ -145,6 +151,7 @@ def plan_pose(c: int, state: Any) -> PlanPose:
         float(state.route.corner[c]),
         state.detour[c],
         state.pace[c],
+        load_deflection(c, state),
     )
 
 
@@ -160,13 +167,22 @@ def store_pose(c: int, pose: PlanPose, state: Any) -> None:
     state.steered[c, 6] = pose.corner
     state.steered[c, 7] = pose.detour
     state.steered[c, 8] = pose.pace
+    state.steered[c, 9] = pose.aside.x
+    state.steered[c, 10] = pose.aside.z
+    state.steered[c, 11] = pose.aside.heading
+    state.steered[c, 12] = pose.aside.rate_x
+    state.steered[c, 13] = pose.aside.rate_z
+    state.steered[c, 14] = pose.aside.rate_heading
 
 
 @kernel
 def load_pose(c: int, state: Any) -> PlanPose:
     """Return the pose that `store_pose` kept."""
     kept = state.steered[c]
-    return PlanPose(kept[0], kept[1], kept[2], kept[3], kept[4], kept[5], kept[6], kept[7], kept[8])
+    aside = Deflection(kept[9], kept[10], kept[11], kept[12], kept[13], kept[14])
+    return PlanPose(
+        kept[0], kept[1], kept[2], kept[3], kept[4], kept[5], kept[6], kept[7], kept[8], aside
+    )
 
 
 @kernel
@@ -190,17 +206,30 @@ def note_pose(
     """Keep what steering decided, and slow down where the legs did not let the body get there.
 
     `before` is where the body was. What looks ahead must know the speed that there really is, or
-    feet are sent to where their body will not be.
+    feet are sent to where their body will not be. What a push does is no speed of the walk.
     """
-    course = pose.heading + command.travel[c]
+    was = load_deflection(c, state)
     x = state.position[c, 0] - before.x
     z = state.position[c, 2] - before.z
+    short_x = pose.x - before.x - x
+    short_z = pose.z - before.z - z
+    course = pose.heading - pose.aside.heading + command.travel[c]
+    way = 0.5 * (state.speed[c] + pose.speed) * dt
+    aside = hold_back(
+        was, pose.aside, short_x, short_z, state.held[c], course, way, dt, tables
+    )  # fmt: skip
+    store_deflection(c, aside, state, tables)
+    x -= aside.x - was.x
+    z -= aside.z - was.z
     real = (math.sin(course) * x + math.cos(course) * z) / dt
     acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
     # What the frame asked for: its mean speed, which steering brought about by a steady change.
     asked = 0.5 * (state.speed[c] + pose.speed)
     slower = 0.0
-    if real < UNHURRIED * asked:
+    # Held back by more than usual from where the push would have it: it hurries too.
+    lost = math.hypot(pose.aside.x - aside.x, pose.aside.z - aside.z)
+    pushed = math.hypot(pose.aside.x - was.x, pose.aside.z - was.z)
+    if real < UNHURRIED * asked or lost > (1.0 - UNHURRIED) * pushed:
         state.hurry[c] = min(
             state.hurry[c] + HURRY * dt / (CYCLE * tables.pendulum_time), MOST_HURRY
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from polypod.body.push import is_thrown, load_deflection
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.environment.placing import world_point
@@ -73,7 +74,10 @@ def swing_time_left(c: int, k: int, state: Any) -> float:
     needle = state.needle[c]
     gone = swing_progress(needle, state.swing_start[c, k], state.swing_extent[c, k])
     left = 0.0
-    if gone >= 0.0:
+    begun = swing_progress(
+        state.lift_phase[c, k], state.swing_start[c, k], state.swing_extent[c, k]
+    )
+    if gone >= 0.0 and begun >= 0.0:
         left = (1.0 - gone) * state.swing_extent[c, k] / state.cycle_rate[c]
     late = (1.0 - state.swing_progress[c, k]) / (FASTEST_CATCH_UP * swing_pace(c, k, state))
     return float(max(left, late))
@@ -92,7 +96,10 @@ def wishes_new_plan(
     """Return whether a swinging foot's preferred place has moved so far that it shall follow."""
     moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
     # Planned anew in every frame, a foot would for ever be at the slow start of its way.
-    wanted = 1.0 if state.swing_progress[c, k] > SETTLED else UNSETTLED
+    # A thrown body is braked otherwise than foreseen, in every frame.
+    thrown = is_thrown(load_deflection(c, state), tables)
+    settled = state.swing_progress[c, k] > SETTLED and not thrown
+    wanted = 1.0 if settled else UNSETTLED
     return moved > wanted * settings.replan_distance * tables.legs.length[k]
 
 

@@ -66,12 +66,14 @@ class CreatureSpec:
 class PushSpec:
     """A change of a creature's velocity (m/s, world) at a time (s).
 
-    `creature` counts single creatures, in the scene's order.
+    `creature` counts single creatures, in the scene's order; `at` is how far ahead of its body's
+    centre it is struck, m.
     """
 
     creature: int
     time: float
     velocity: tuple[float, float, float]
+    at: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -259,4 +261,5 @@ def _push(place: str, values: Any, creatures: int) -> PushSpec:
         creature=table.whole("creature", 0, 0, creatures - 1),
         time=table.number("time", None, 0.0, LATEST),
         velocity=(x, y, z),
+        at=table.number("at", 0.0, -LARGEST, LARGEST),
     )

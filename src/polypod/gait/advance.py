@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.push import Deflection, is_pushed
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, plan_pose, predict
+from polypod.controller.swing import FASTEST_CATCH_UP
 from polypod.gait.needle import minimum_feet_down, turn_needle
 from polypod.gait.tempo import tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
@@ -21,21 +23,59 @@ SOON = 1.5
 SWING_LAG = 0.9
 # Cycles in which a hurry dies away once legs have room again.
 HURRY_CYCLES = 3.0
+# A balance step, twice as quick as the gait's, takes at least so many leg pendulum times; and the
+# way back to the path is as fast as this share of the spring's rate times how far off it is.
+QUICKEST_STEP = 0.45
+WAY_BACK = math.exp(-1.0)
 
 
 @kernel
-def fastest_foot_speed(c: int, pose: PlanPose, state: Any, tables: Any) -> float:
-    """Return the speed of the fastest foot's rest place, m/s: it sets the tempo in a turn."""
+def fastest_foot_speed(
+    c: int, pose: PlanPose, state: Any, command: Any, tables: Any
+) -> float:  # fmt: skip
+    """Return the speed of the fastest foot's rest place, m/s: it sets the tempo in a turn.
+
+    Also when pushed, and until the body is back: how far it still is counts like a speed.
+    """
     legs = tables.legs
+    aside = pose.aside
+    course = pose.heading - aside.heading + command.travel[c]
+    push_ahead = math.sin(course) * aside.rate_x + math.cos(course) * aside.rate_z
+    push_left = math.cos(course) * aside.rate_x - math.sin(course) * aside.rate_z
+    turn_rate = pose.turn_rate + aside.rate_heading
     most = 0.0
     for k in range(legs.length.shape[0]):
         across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
         along = legs.sole_stance[k, 2] + state.spacing[c, k, 1]
         # Heading turns +Z toward +X: a place at +X moves backward.
-        forward = pose.speed - pose.turn_rate * across
-        sideways = pose.turn_rate * along
+        forward = pose.speed + push_ahead - turn_rate * across
+        sideways = push_left + turn_rate * along
         most = max(most, math.hypot(forward, sideways))
+    if is_pushed(aside):
+        most = math.hypot(most, WAY_BACK * tables.recovery * math.hypot(aside.x, aside.z))
     return most
+
+
+@kernel
+def quickest_period(
+    c: int, pose: PlanPose, duty: float, state: Any, command: Any, tables: Any
+) -> float:
+    """Return the shortest cycle of a pushed creature, s: legs have their own pendulum's time.
+
+    Who is asked to walk quicker than that keeps its tempo.
+    """
+    still = Deflection(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    alone = PlanPose(
+        pose.x, pose.z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner,
+        pose.detour, pose.pace, still,
+    )  # fmt: skip
+    own = tempo(
+        fastest_foot_speed(c, alone, state, command, tables), tables.hip_height, tables.leg_length,
+        tables.upright, command.gait_duty[c, 1], command.gait_duty[c, 2],
+        stance_travel_limit(c, state, command, tables), command.period[c],
+    )  # fmt: skip
+    quickest = FASTEST_CATCH_UP * QUICKEST_STEP * tables.pendulum_time / (1.0 - duty)
+    return min(quickest, own.period)
 
 
 @kernel
@@ -115,7 +155,8 @@ def advance_gait(
     now = plan_pose(c, state)
     soon = predict(now, SOON * tables.pendulum_time, c, state, command, tables, settings)
     speed = max(
-        fastest_foot_speed(c, now, state, tables), fastest_foot_speed(c, soon, state, tables)
+        fastest_foot_speed(c, now, state, command, tables),
+        fastest_foot_speed(c, soon, state, command, tables),
     )
     aim = tempo(
         speed, tables.hip_height, tables.leg_length, tables.upright, command.gait_duty[c, 1],
@@ -130,6 +171,8 @@ def advance_gait(
         state.cycle_rate[c] = 0.0
         return 0.0
     period = aim.period
+    if is_pushed(now.aside):
+        period = max(period, quickest_period(c, now, aim.duty, state, command, tables))
     if math.isnan(command.period[c]):
         period /= 1.0 + state.hurry[c]
     state.cycle_rate[c] = 1.0 / period

@@ -25,6 +25,8 @@ from polypod.math.intervals import sector_progress, wrap_phase
 LEAST_STANCE = 0.5
 # The needle moves by at most this share of the shortest swing or stance in one part of a step.
 LARGEST_PART = 0.5
+# So near to the edge of a sector is at it, cycles.
+EDGE = 1e-9
 MOST_PARTS = 256
 
 
@@ -66,14 +68,14 @@ def swing_progress(needle: float, start: float, extent: float) -> float:
 def progress_since_lift(needle: float, lift_phase: float, start: float, extent: float) -> float:
     """Return the progress, in [0, 1], of a swing that began at `lift_phase` inside its sector.
 
-    1 once the needle has left the sector.
+    1 once the needle has left the sector, and for a foot that lifted outside of it: it is to land.
     """
     inside = wrap_phase(needle - start)
-    if inside >= extent:
-        return 1.0
     begun = wrap_phase(lift_phase - start)
-    if begun >= extent:  # by rounding: a lift at the very edge of the sector
+    if begun >= 1.0 - EDGE:  # by rounding: a lift at the very edge of the sector
         begun = 0.0
+    if inside >= extent or begun >= extent:
+        return 1.0
     return max(inside - begun, 0.0) / (extent - begun)
 
 

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING
 
 from polypod.errors import SettingError, choices
 from polypod.jobs.rig_options import RIG_OPTIONS, load_given_rig
+from polypod.jobs.screen import warn
 
 if TYPE_CHECKING:
-    from polypod.environment.scene import CreatureSpec, Scene
+    from polypod.environment.scene import CreatureSpec, PushSpec, Scene
     from polypod.gait.pattern import Gait
     from polypod.gait.validation import GaitCheck
     from polypod.herd import Herd
@@ -212,6 +213,31 @@ def walking_seconds(roles: list[Role], default: float) -> float:
         pendulum = math.sqrt(float(role.morphology.legs.length.mean()) / GRAVITY)
         longest = max(longest, 1.15 * role.way / role.speed + 6.0 * pendulum + 1.0)
     return math.ceil(longest * 10.0) / 10.0
+
+
+def list_pushes(roles: list[Role], scene: Scene, seconds: float) -> list[PushSpec]:
+    """Return a scene's pushes for those who walk, and say which are left out.
+
+    Raises:
+        SettingError: one strikes beside the trunk.
+    """
+    from polypod.body.blow import judge_place
+
+    who = [role for role in roles for _ in range(role.count)]
+    pushes = []
+    for number, push in enumerate(scene.pushes, start=1):
+        place = f"{scene.path}: [[push]] number {number}"
+        if push.creature >= len(who):
+            warn(f"{place} is for creature {push.creature}, who does not walk here; it is left out")
+        elif push.time >= seconds:
+            warn(f"{place} is at {push.time:g} s, and the walk ends at {seconds:g} s")
+        else:
+            try:
+                judge_place(who[push.creature].morphology, push.at)
+            except SettingError as error:
+                raise SettingError(f"{place}: {error}") from None
+            pushes.append(push)
+    return pushes
 
 
 def enter(world: World, role: Role) -> Herd:

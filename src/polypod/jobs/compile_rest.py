@@ -105,6 +105,7 @@ def prepare_feet(
     state: Any, command: Any, tables: Any, settings: Any, env: Any, plan: Any, scratch: Any
 ) -> None:
     """Compile most of what `controller.plan` calls besides the planner."""
+    from polypod.body.push import NO_DEFLECTION
     from polypod.compute import prepare
     from polypod.controller.lift import foot_out_of_turn, leave_ground, note_standing, way_off
     from polypod.controller.moving import foot_in_the_way, step_out, way_blocked
@@ -113,7 +114,7 @@ def prepare_feet(
     from polypod.crowd.legs import is_taken
     from polypod.math.vec3 import Vec3
 
-    pose = PlanPose(*([0.0] * len(PlanPose._fields)))
+    pose = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_DEFLECTION)
     prepare(way_blocked, 0, 0, state, tables, env)
     prepare(is_taken, 0, 0, state, tables, scratch)
     prepare(way_on, 0, 0, Vec3(0.0, 0.0, 0.0), 0.0, 0.0, state)

@@ -14,7 +14,7 @@ from polypod.jobs.values import filled, number, waypoints, whole
 
 if TYPE_CHECKING:
     from polypod.environment.environment import Environment
-    from polypod.environment.scene import Scene
+    from polypod.environment.scene import PushSpec, Scene
     from polypod.gait.validation import GaitCheck
     from polypod.jobs.cast import Role
     from polypod.report.record import Recording
@@ -94,7 +94,7 @@ def run(given: argparse.Namespace) -> int:
     """Judge everything, walk, write, and say how it went."""
     outputs = judge_outputs(given.out, given.record, given.report, given.plots, _inputs(given))
     from polypod.environment.scene import read_scene
-    from polypod.jobs.cast import cast_roles, walking_seconds
+    from polypod.jobs.cast import cast_roles, list_pushes, walking_seconds
 
     scene = read_scene(given.scene, given.seed) if given.scene is not None else None
     roles = cast_roles(given, scene)
@@ -102,10 +102,9 @@ def run(given: argparse.Namespace) -> int:
     if seconds is None:
         seconds = walking_seconds(roles, DEFAULT_SECONDS)
     _judge_length(roles, seconds, given.fps)
-    if scene is not None and scene.pushes:
-        warn(f"{scene.path} has pushes, which this version does not simulate; it walks unpushed")
+    pushes = list_pushes(roles, scene, seconds) if scene is not None else []
     with telling_of_compilation():
-        recordings, environment, gaits = _walk(roles, scene, seconds, given.fps)
+        recordings, environment, gaits = _walk(roles, scene, pushes, seconds, given.fps)
         reports = _judge_walks(
             roles, gaits, recordings, environment, seconds, bool(given.report and outputs.glb)
         )
@@ -139,7 +138,11 @@ def _judge_length(roles: list[Role], seconds: float, fps: float) -> None:
 
 
 def _walk(
-    roles: list[Role], scene: Scene | None, seconds: float, fps: float
+    roles: list[Role],
+    scene: Scene | None,
+    pushes: list[PushSpec],
+    seconds: float,
+    fps: float,
 ) -> tuple[list[Recording], Environment, list[GaitCheck | None]]:
     from polypod.environment.environment import Environment
     from polypod.jobs.cast import enter, overdone
@@ -156,6 +159,8 @@ def _walk(
         too_fast = overdone(role, herd)
         if too_fast is not None:
             warn(too_fast)
+    for push in pushes:
+        world.push_at(push.time, push.velocity, push.creature, at=push.at)
     gaits = _judge_gaits(roles)
     with progress("walking") as advance:
         return record_walk(world, seconds, fps, advance), environment, gaits
