@@ -125,11 +125,14 @@ class HerdState(NamedTuple):
     girdle_offset: FloatArray  # [C, G] m: mean of the particles of a girdle's feet
     beat: FloatArray  # [C, HARMONICS, 2] m: heave at full gravity, cosines and sines of the needle
     gravity_share: FloatArray  # [C] of gravity that the gait's bounce takes; the rest is borne
+    beat_period: FloatArray  # [C] s a cycle, smoothed, by which the body bounces
     vault: FloatArray  # [C] Alexander's q of the feet's force
     sinusoid_share: FloatArray  # [C] how much of P1's sinusoid there is
     nod_share: FloatArray  # [C, 2] part of what the girdles nod and roll by that the trunk takes on
     heave: FloatArray  # [C] m: body centre over where it would be without its gait's motion
     heave_step: FloatArray  # [C] m: by how much that has changed in this step
+    room: FloatArray  # [C, 2] m, at most 0: how far the body stays down for legs at their end, and
+    # the cycles since
     nod: FloatArray  # [C, 2] slope forward and to the left that the gait adds to the tilt
     sway: FloatArray  # [C] m: body centre to the left of its course
     swayed: FloatArray  # [C] m: what it would be in full
@@ -207,6 +210,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
             "halted",
             "halts",
             "gravity_share",
+            "beat_period",
             "vault",
             "sinusoid_share",
             "heave",
@@ -284,6 +288,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
         "beat": (c, HARMONICS, 2),
         "nod_share": (c, 2),
         "nod": (c, 2),
+        "room": (c, 2),
         "sway_share": (c, 3),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),

@@ -9,36 +9,32 @@ without it, kept in the state, so that what looks ahead can leave it out.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
+from polypod.body.beat import LEAST_SPREAD, Beat, bounded, gravity_share, measure_beat
 from polypod.body.particles import (
-    HARMONICS,
+    Orbit,
     Particle,
     advance_particle,
     cycle_shape,
-    force_harmonic,
     settle_particle,
 )
 from polypod.body.smoothing import follow
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.config import MOTION_PARTICLES, MOTION_SINUSOID, WALKING_VAULT
+from polypod.controller.steering import MOST_HURRY
 from polypod.gait.tempo import GRAVITY
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat
 
 # Strength and shape of the bounce follow gait and speed within about so many cycles.
 ADOPT_CYCLES = 0.4
-# A foot's own particle swings at most so many times as far as a stiff leg would lift the body. In
-# steady gait the feet's particles cancel; on the way to another gait they do not quite.
-ALONE = 6.0
 # Largest nod and roll, radians to either side, and sway, hip heights: horse and dog at a gallop
 # nod by about 5 to 8 degrees, a man sways by 4 to 5 cm, peak to peak.
 LARGEST_NOD = 0.07
 LARGEST_ROLL = 0.03
 LARGEST_SWAY = 0.025
-# Girdles whose places vary by less than this, leg lengths squared, are one.
-LEAST_SPREAD = 1e-4
 # Sway is full from this speed on, leg lengths a pendulum time, and comes within so many cycles.
 SWAYING = 0.1
 SWAY_CYCLES = 1.0
@@ -46,111 +42,28 @@ SWAY_CYCLES = 1.0
 LARGEST_BOB = 0.02
 
 
-class Beat(NamedTuple):
-    """How far the feet's steady orbits carry the body at full gravity, peak to peak."""
-
-    heave: float  # m
-    alone: float  # m, of the foot that moves most
-    nod: float  # rad, of the fit through the girdles
-    roll: float  # rad, left against right
-    sway_cosine: float  # m: sway at needle phase 0
-    sway_sine: float  # m: and a quarter of a cycle later
-
-
 @kernel
-def measure_beat(c: int, vault: float, state: Any, tables: Any) -> Beat:
-    """Return the closed-form motion of the gait on its way, and keep its heave's harmonics.
+def ease(c: int, state: Any) -> float:
+    """Return the share of the gait's motion that is left to who gets on badly.
 
-    A sum of harmonics instead of samples of the orbits: it is asked for in every step. The sway is
-    an inverted pendulum's over the feet's centre of pressure, so it is less the quicker the cycle.
+    Whose legs hold it back, on what it climbs over, has none of their reach to spare.
     """
-    legs = tables.legs
-    girdles = tables.girdles
-    period = 1.0 / state.cycle_rate[c]
-    width = 0.0
-    middle = 0.0
-    spread = 0.0
-    for k in range(legs.length.shape[0]):
-        z = girdles.place[girdles.of_leg[k]]
-        middle += legs.weight[k] * z
-        spread += legs.weight[k] * z * z
-        width += legs.weight[k] * abs(legs.sole_stance[k, 0])
-    spread -= middle * middle
-    nods = spread > LEAST_SPREAD * tables.leg_length * tables.leg_length
-    heave = 0.0
-    nod = 0.0
-    roll = 0.0
-    alone = 0.0
-    sway_cosine = 0.0
-    sway_sine = 0.0
-    for n in range(1, HARMONICS + 1):
-        turned = period / (2.0 * math.pi * n)
-        heave_cosine = 0.0
-        heave_sine = 0.0
-        nod_cosine = 0.0
-        nod_sine = 0.0
-        roll_cosine = 0.0
-        roll_sine = 0.0
-        for k in range(legs.length.shape[0]):
-            duty = 1.0 - state.goal_extent[c, k]
-            harmonic = force_harmonic(cycle_shape(duty, vault), n)
-            angle = 2.0 * math.pi * n * (state.goal_start[c, k] - 0.5 * duty)
-            cosine = math.cos(angle)
-            sine = math.sin(angle)
-            size = -legs.weight[k] * GRAVITY * turned * turned * harmonic
-            heave_cosine += size * cosine
-            heave_sine += size * sine
-            lever = girdles.place[girdles.of_leg[k]] - middle
-            nod_cosine += size * lever * cosine
-            nod_sine += size * lever * sine
-            roll_cosine += size * legs.side[k] * cosine
-            roll_sine += size * legs.side[k] * sine
-            if n == 1:
-                alone = max(alone, 2.0 * abs(size / legs.weight[k]))
-                across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
-                sway_cosine += legs.weight[k] * across * harmonic * cosine
-                sway_sine += legs.weight[k] * across * harmonic * sine
-        state.beat[c, n - 1, 0] = heave_cosine
-        state.beat[c, n - 1, 1] = heave_sine
-        heave += heave_cosine * heave_cosine + heave_sine * heave_sine
-        nod += nod_cosine * nod_cosine + nod_sine * nod_sine
-        roll += roll_cosine * roll_cosine + roll_sine * roll_sine
-    quick = 2.0 * math.pi / period
-    sway = 1.0 / (1.0 + quick * quick * tables.hip_height / GRAVITY)
-    return Beat(
-        2.0 * math.sqrt(heave),
-        alone,
-        2.0 * math.sqrt(nod) / spread if nods else 0.0,
-        2.0 * math.sqrt(roll) / max(width, 0.02 * tables.leg_length),
-        sway * sway_cosine,
-        sway * sway_sine,
-    )
-
-
-@kernel
-def gravity_share(c: int, beat: Beat, state: Any, tables: Any) -> float:
-    """Return the share of gravity at which the gait's bounce keeps to what legs do.
-
-    Ballistic bounce grows with the period squared, and slow walkers' periods are long: a body that
-    walks slowly rises by no more than a stiff leg lifts it in a step, s^2 / (8 h), as an inverted
-    pendulum does over what it travels until the next foot takes over. The less is bounced the more
-    is borne all the time: the force's mean stays g and it never pulls.
-    """
-    duty = min(state.duty[c], 0.5)
-    travel = duty * abs(state.speed[c]) / state.cycle_rate[c]
-    rise = 0.125 * travel * travel / tables.hip_height
-    tiny = 1e-9 * tables.hip_height
-    return min(1.0, rise / max(beat.heave, tiny), ALONE * rise / max(beat.alone, tiny))
+    return 1.0 - min(1.0, float(state.hurry[c]) / MOST_HURRY)
 
 
 @kernel
 def adopt_motion(c: int, beat: Beat, state: Any, command: Any, tables: Any, settings: Any) -> None:
     """Let the bounce's strength and shape follow gait, speed and settings."""
     follows = 1.0 - math.exp(-state.turn[c] / ADOPT_CYCLES)
+    period = 1.0 / state.cycle_rate[c]
+    # Who sets out has no bounce yet to carry over.
+    if state.gravity_share[c] == 0.0:
+        state.beat_period[c] = period
+    state.beat_period[c] += (period - state.beat_period[c]) * follows
     bounce = 0.0
     sinusoid = 0.0
     if settings.body_motion == MOTION_PARTICLES:
-        bounce = settings.bounce * gravity_share(c, beat, state, tables)
+        bounce = settings.bounce * ease(c, state) * gravity_share(c, beat, state, tables)
     elif settings.body_motion == MOTION_SINUSOID:
         sinusoid = settings.bounce
     state.gravity_share[c] += (bounce - state.gravity_share[c]) * follows
@@ -168,8 +81,13 @@ def wished_vault(c: int, command: Any, tables: Any, settings: Any) -> float:
 
 
 @kernel
-def advance_particles(c: int, dt: float, state: Any, tables: Any) -> None:
-    """Advance the particles of all feet by the step's turn of the needle, or `dt` s of standing."""
+def advance_particles(
+    c: int, dt: float, share: float, period: float, vault: float, state: Any, tables: Any
+) -> None:
+    """Advance the particles of all feet by the step's turn of the needle, or `dt` s of standing.
+
+    `share`, `period` and `vault` are those of the state as they were before the step.
+    """
     walks = state.cycle_rate[c] > 0.0
     for k in range(state.swinging.shape[1]):
         particle = Particle(state.particle_offset[c, k], state.particle_rise[c, k])
@@ -179,23 +97,13 @@ def advance_particles(c: int, dt: float, state: Any, tables: Any) -> None:
         else:
             touchdown = state.swing_start[c, k] + state.swing_extent[c, k]
             phase = wrap_phase(state.needle[c] - state.turn[c] - touchdown)
-            particle = advance_particle(
-                particle, phase, state.turn[c], 1.0 / state.cycle_rate[c],
-                cycle_shape(1.0 - state.swing_extent[c, k], state.vault[c]),
-                state.gravity_share[c],
-            )  # fmt: skip
+            duty = 1.0 - state.swing_extent[c, k]
+            before = Orbit(cycle_shape(duty, vault), period, share)
+            shape = cycle_shape(duty, state.vault[c])
+            orbit = Orbit(shape, state.beat_period[c], state.gravity_share[c])
+            particle = advance_particle(particle, phase, state.turn[c], before, orbit)
         state.particle_offset[c, k] = particle.offset
         state.particle_rise[c, k] = particle.rise
-
-
-@kernel
-def bounded(most: float, size: float) -> float:
-    """Return the share of a turn, `size` from peak to peak, that stays within `most` either way.
-
-    Taken back gently, so that of two gaits the wilder one still moves more.
-    """
-    excess = 0.5 * size / most
-    return 1.0 / math.sqrt(1.0 + excess * excess)
 
 
 @kernel
@@ -273,17 +181,6 @@ def sinusoid(c: int, state: Any, tables: Any) -> float:
 
 
 @kernel
-def heave_ahead(c: int, cycles: float, state: Any) -> float:
-    """Return the heave, m, that the steady gait will have so many cycles ahead."""
-    heave = 0.0
-    for n in range(1, HARMONICS + 1):
-        angle = 2.0 * math.pi * n * (state.needle[c] + cycles)
-        heave += state.beat[c, n - 1, 0] * math.cos(angle)
-        heave += state.beat[c, n - 1, 1] * math.sin(angle)
-    return float(state.gravity_share[c]) * heave
-
-
-@kernel
 def wished_sway(c: int, dt: float, beat: Beat, state: Any, tables: Any, settings: Any) -> float:
     """Return how far the body is to be to its left of its course, m, for the feet that stand.
 
@@ -294,7 +191,7 @@ def wished_sway(c: int, dt: float, beat: Beat, state: Any, tables: Any, settings
     sway = 0.0
     if tables.upright and state.cycle_rate[c] > 0.0:
         fast = SWAYING * tables.leg_length / tables.pendulum_time
-        wanted = settings.sway * min(1.0, abs(state.speed[c]) / fast)
+        wanted = settings.sway * ease(c, state) * min(1.0, abs(state.speed[c]) / fast)
         seconds = min(seconds, SWAY_CYCLES / state.cycle_rate[c])
         angle = 2.0 * math.pi * state.needle[c]
         sway = beat.sway_cosine * math.cos(angle) + beat.sway_sine * math.sin(angle)
@@ -311,14 +208,17 @@ def move_trunk(c: int, dt: float, state: Any, command: Any, tables: Any, setting
     `state.sway` is written by who moves the body, for its legs may hold it back.
     """
     beat = Beat(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    share = state.gravity_share[c]
+    period = state.beat_period[c]
+    vault = state.vault[c]
     if state.cycle_rate[c] > 0.0:
-        beat = measure_beat(c, state.vault[c], state, tables)
+        beat = measure_beat(c, vault, state, tables)
         adopt_motion(c, beat, state, command, tables, settings)
     else:
         # Who sets out begins without a bounce, and it grows with speed.
         state.gravity_share[c] = 0.0
         state.sinusoid_share[c] = 0.0
-    advance_particles(c, dt, state, tables)
+    advance_particles(c, dt, share, period, vault, state, tables)
     fit_girdles(c, beat, state, tables, settings)
     return wished_sway(c, dt, beat, state, tables, settings)
 

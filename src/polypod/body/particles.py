@@ -16,7 +16,8 @@ A steady gait has a closed-form orbit, centred on the preferred height. What a p
 is its deviation from it, which obeys `deviation'' = c g f(u)` in stance and flies on straight in
 swing: c, the force added to the steady one, removes it within a cycle. So each piece between two
 events of the foot (touchdown, mid-stance, lift-off) is integrated exactly, and the frame rate only
-samples the motion.
+samples the motion. A tempo or a strength that changes takes the orbit along; disks that are
+replaced leave the particle where it is, and it deviates from its new orbit.
 """
 
 from __future__ import annotations
@@ -101,10 +102,16 @@ def steady(shape: Shape, phase: float) -> Particle:
     return Particle(lifted + launch * flown - 0.5 * flown * flown, launch - flown)
 
 
+class Orbit(NamedTuple):
+    """The steady motion of one foot's particle."""
+
+    shape: Shape
+    period: float  # s a cycle
+    share: float  # of gravity that the bounce takes: the rest of the weight is borne all the time
+
+
 @kernel
-def added_force(
-    shape: Shape, u: float, offset: float, rise: float, period: float, share: float
-) -> float:
+def added_force(orbit: Orbit, u: float, offset: float, rise: float) -> float:
     """Return the force, in g times `stance_impulse`'s, that removes a deviation from the orbit.
 
     In reception what stalls the particle at mid-stance (P2 4b). In propulsion what gives the speed
@@ -112,6 +119,8 @@ def added_force(
     through the reception to come, where the height at touchdown alone is approached in turns from
     above and below, ever slower the longer a foot stands. The whole force is never below 0.
     """
+    shape = orbit.shape
+    period = orbit.period
     duty = shape.duty
     impulse = stance_impulse(shape, u)
     if u < 0.0:
@@ -125,30 +134,36 @@ def added_force(
         lift = max(lift, LEAST_LEFT * (shape.half + 0.5 * fall))
         ahead = offset + rise * period * (left + fall)
         wanted = -ahead / (GRAVITY * period * period * lift)
-    least = -share - (1.0 - share) / (shape.peak * (1.0 + abs(shape.vault)))
+    least = -orbit.share - (1.0 - orbit.share) / (shape.peak * (1.0 + abs(shape.vault)))
     return max(min(least, 0.0), min(LARGEST_PUSH, wanted))
 
 
 @kernel
+def on_orbit(orbit: Orbit, phase: float) -> Particle:
+    """Return the particle of a steady gait, `phase` cycles after its foot's touchdown."""
+    place = steady(orbit.shape, phase)
+    fast = orbit.share * GRAVITY * orbit.period
+    return Particle(place.offset * fast * orbit.period, place.rise * fast)
+
+
+@kernel
 def advance_particle(
-    particle: Particle, phase: float, turn: float, period: float, shape: Shape, share: float
+    particle: Particle, phase: float, turn: float, before: Orbit, orbit: Orbit
 ) -> Particle:
     """Advance one foot's particle while its cycle goes on from `phase` by `turn` cycles.
 
     Args:
-        particle: where it is, m and m/s.
+        particle: where it is.
         phase: cycles since the foot's touchdown, in [0, 1).
         turn: cycles.
-        period: s a cycle.
-        shape: the foot's steady cycle.
-        share: of gravity that the gait's own bounce takes: the smaller, the more of the weight is
-            borne all the time.
+        before: the steady orbit at the step's beginning.
+        orbit: that at its end, by which the particle is driven.
     """
-    high = share * GRAVITY * period * period
-    fast = share * GRAVITY * period
-    now = steady(shape, phase)
-    offset = particle.offset - now.offset * high
-    rise = particle.rise - now.rise * fast
+    shape = orbit.shape
+    period = orbit.period
+    place = on_orbit(before, phase)
+    offset = particle.offset - place.offset
+    rise = particle.rise - place.rise
     half = 0.5 * shape.duty
     while turn > 0.0:
         event = half if phase < half else shape.duty if phase < shape.duty else 1.0
@@ -156,7 +171,7 @@ def advance_particle(
         if phase < shape.duty:
             u = phase / shape.duty - 0.5
             after = u + part / shape.duty
-            force = added_force(shape, u, offset, rise, period, share) * GRAVITY * period
+            force = added_force(orbit, u, offset, rise) * GRAVITY * period
             begun = stance_impulse(shape, u)
             lift = stance_lift(shape, after) - stance_lift(shape, u) - begun * part
             offset += rise * period * part + force * period * lift
@@ -167,8 +182,8 @@ def advance_particle(
         turn -= part
         if phase >= 1.0:
             phase = 0.0
-    now = steady(shape, phase)
-    return Particle(now.offset * high + offset, now.rise * fast + rise)
+    place = on_orbit(orbit, phase)
+    return Particle(place.offset + offset, place.rise + rise)
 
 
 @kernel

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.beat import heave_ahead
 from polypod.body.hull import least_height
-from polypod.body.motion import heave_ahead
 from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane, body_rotation
@@ -23,10 +23,15 @@ from polypod.math.vec3 import Vec3, load_vec3
 # them; and for legs that else find no place.
 SHALLOW = 0.15
 DEEP = 0.35
+# Legs that were too short for the preferred height keep the body down for so many cycles, it rises
+# again within about so many, and this far down at most, preferred heights.
+STAY_DOWN = 1.2
+RISE = 3.0
+STEADY_DEPTH = 0.06
 # What `follow` lags behind a steady climb by, shares of its time.
 LAG = 0.75
 # So far ahead legs are looked at that will stretch, shares of half a cycle, and how often. A foot
-# is taken to stand so many cycles longer than its disk says: it may find no place at once.
+# is taken to stand longer than its disk says by a share of that: it may find no place at once.
 SOON = 0.6
 SOON_SAMPLES = 2
 LATE = 0.1
@@ -106,7 +111,8 @@ def highest_soon(
         rise = rise_along(pose, x, z, plane) + heave_ahead(c, 0.5 * share, state)
         for k in range(state.swinging.shape[1]):
             until = wrap_phase(state.swing_start[c, k] - state.needle[c])
-            if state.swinging[c, k] or until < 0.5 * share - LATE:
+            until += LATE * (1.0 - state.swing_extent[c, k])
+            if state.swinging[c, k] or until < 0.5 * share:
                 continue
             place = load_vec3(state.foot[c, k])
             foot_turn = load_quat(state.foot_rotation[c, k])
@@ -165,6 +171,22 @@ def cycle_seconds(c: int, state: Any, tables: Any) -> float:
 
 
 @kernel
+def keep_down(c: int, cycles: float, most: float, state: Any, command: Any) -> None:
+    """Note how far below its preferred height, at most, a body stays for the sake of its legs.
+
+    A leg is at its end once in a stance. Who rose in between would bob by the reach of its legs,
+    against its gait. What is deeper than a steady walk needs passes as quickly as it came.
+    """
+    state.room[c, 1] += cycles
+    needed = max(most, -STEADY_DEPTH * command.body_height[c])
+    if needed <= state.room[c, 0]:
+        state.room[c, 0] = needed
+        state.room[c, 1] = 0.0
+    elif state.room[c, 1] > STAY_DOWN:
+        state.room[c, 0] *= math.exp(-cycles / RISE)
+
+
+@kernel
 def wished_height(
     c: int, dt: float, pose: PlanPose, plane: FeetPlane, turn: Quat,
     state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any,
@@ -176,13 +198,13 @@ def wished_height(
     that it comes and goes with continuous acceleration. The gait's own heave comes on top of it,
     and leaves its room where legs are at their end.
     """
-    seconds = settings.height_smoothing * cycle_seconds(c, state, tables)
+    cycle = cycle_seconds(c, state, tables)
+    seconds = settings.height_smoothing * cycle
     base = plane.height + command.body_height[c]
     base -= rise_along(pose, state.position[c, 0], state.position[c, 2], plane)
     ahead = abs(state.speed[c]) * seconds
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
-    extra = max(0.0, least - base)
-    extra = min(extra, highest(c, base + state.heave[c], pose, turn, state, command, tables))
+    most = highest(c, base + state.heave[c], pose, turn, state, command, tables)
     if state.cycle_rate[c] > 0.0:
         level = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
         there = predict(pose, 0.5 / state.cycle_rate[c], c, state, command, tables, settings)
@@ -190,7 +212,9 @@ def wished_height(
         landing = highest_ahead(
             c, base, pose, there, level, plane, state, command, tables, settings, env
         )
-        extra = min(extra, soon, landing)
+        most = min(most, soon, landing)
+    keep_down(c, dt / cycle, most, state, command)
+    extra = min(max(state.room[c, 0], least - base), most)
     # On a steady climb the filter would lag by three of its time constants.
     share = settings.tilt_share * tables.tilt_scale
     slope = state.tilt[c, 0, 0] / share if share > 0.0 else plane.slope_forward
