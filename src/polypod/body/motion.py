@@ -139,8 +139,11 @@ def fit_girdles(c: int, beat: Beat, state: Any, tables: Any, settings: Any) -> N
         spread += girdles.weight[g] * lever * lever
     if state.cycle_rate[c] > 0.0:
         strong = max(state.gravity_share[c], 1e-9)
-        # Bouncing sinks onto the side that stands; who vaults carries that side high.
-        bounces = max(0.0, 1.0 - state.vault[c] / WALKING_VAULT) * tables.tilt_scale
+        # Bouncing sinks onto the side that stands, as camels do; who vaults carries that side high,
+        # and sprawlers stand broad.
+        bounces = 0.0
+        if tables.upright:
+            bounces = max(0.0, 1.0 - state.vault[c] / WALKING_VAULT) * tables.tilt_scale
         state.nod_share[c, 0] = settings.nod * bounded(LARGEST_NOD, strong * beat.nod)
         state.nod_share[c, 1] = settings.nod * bounces * bounded(LARGEST_ROLL, strong * beat.roll)
     nod = 0.0
@@ -196,7 +199,7 @@ def wished_sway(c: int, dt: float, beat: Beat, state: Any, tables: Any, settings
         angle = 2.0 * math.pi * state.needle[c]
         sway = beat.sway_cosine * math.cos(angle) + beat.sway_sine * math.sin(angle)
         size = math.hypot(beat.sway_cosine, beat.sway_sine)
-        sway *= min(1.0, LARGEST_SWAY * tables.hip_height / max(size, 1e-12))
+        sway *= bounded(LARGEST_SWAY * tables.hip_height, 2.0 * size)
         state.swayed[c] = sway
     return follow(state.sway_share[c], wanted, seconds, dt) * state.swayed[c]
 

@@ -15,6 +15,8 @@ BELLY_PLACES = 5
 BELLY_SHARE = 0.7
 # Motion above this many times the stride's frequency is tremor, not gait (row 10).
 TREMOR_STRIDES = 6.0
+# Less than this, leg lengths, nobody sees.
+STILL = 1e-3
 
 
 def way_figures(recording: Recording, commanded_distance_m: float | None) -> dict[str, object]:
@@ -111,8 +113,9 @@ def _bounce_figures(recording: Recording) -> dict[str, object]:
     frequency = np.fft.rfftfreq(len(bounce), 1.0 / fps)
     total = float(energy[1:].sum())
     tremor = float(energy[frequency > TREMOR_STRIDES / stride_s].sum())
-    # A body that does not bounce at all has no tremor either: its numbers are rounding.
-    still = float(np.ptp(bounce)) < 1e-6 * float(recording.morphology.legs.length.max())
+    # A body that hardly bounces has no tremor either: in a walk whose feet cancel, what is left of
+    # their beats are the last ones, a thousandth of a leg high and not to be seen.
+    still = float(np.ptp(bounce)) < STILL * float(recording.morphology.legs.length.max())
     figures["body_tremor_share"] = 0.0 if still else tremor / total
     return figures
 
