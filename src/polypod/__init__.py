@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from polypod.gait.files import read_gait, write_gait
     from polypod.gait.library import make_gait
     from polypod.gait.pattern import Gait
+    from polypod.gait.validation import GaitCheck, check_gait
     from polypod.morphology.load import load_rig
     from polypod.recording import record_walk
     from polypod.report.figures import measure
@@ -39,11 +40,13 @@ _HOMES = {
     "Activity": "polypod.activity",
     "Environment": "polypod.environment.environment",
     "Gait": "polypod.gait.pattern",
+    "GaitCheck": "polypod.gait.validation",
     "Obstacle": "polypod.environment.obstacles",
     "PolypodError": "polypod.errors",
     "Settings": "polypod.config",
     "Terrain": "polypod.environment.terrain",
     "World": "polypod.world",
+    "check_gait": "polypod.gait.validation",
     "load_rig": "polypod.morphology.load",
     "make_gait": "polypod.gait.library",
     "measure": "polypod.report.figures",
@@ -62,11 +65,13 @@ __all__ = [
     "Activity",
     "Environment",
     "Gait",
+    "GaitCheck",
     "Obstacle",
     "PolypodError",
     "Settings",
     "Terrain",
     "World",
+    "check_gait",
     "load_rig",
     "make_gait",
     "measure",

@@ -101,6 +101,10 @@ BAD = [
     (["gait", "four.toml", "-o", "four.toml"], ["four.toml", "read by this run"]),
     (["gait", "--check"], ["--check"]),
     (["gait", "-o", "gait.png"], ["-o"]),
+    (["gait", "--speed", "1"], ["--speed"]),
+    (["gait", "trot", "--speed", "1"], ["--speed", "--check"]),
+    (["gait", "trot", "--check", "--speed", "-1"], ["--speed", "-1"]),
+    (["gait", "four.toml", "--check", "--rig", "spider"], ["four.toml", "4", "8"]),
     (["warmup", "now"], ["now"]),
     (["bench", "--json", "nowhere/b.json"], ["nowhere", "does not exist"]),
 ]

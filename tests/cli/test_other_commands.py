@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +21,11 @@ from cli.running import polypod as polypod_run
 from polypod import __version__
 from polypod.gait.files import read_gait
 from polypod.gait.library import make_gait, names
-from polypod.jobs.gait import check, paired_legs
+from polypod.gait.validation import check_gait
+from polypod.jobs.gait import describe_check, paired_legs
 from polypod.jobs.rig_options import RIG_HELP
 from polypod.morphology import builtin
+from polypod.morphology.load import load_rig
 
 
 @pytest.mark.parametrize("command", ["", "walk", "rig", "gait", "bench", "warmup"])
@@ -80,13 +84,65 @@ def test_gait_of_a_rig_names_its_feet() -> None:
     assert "LeftLeg1Foot" in run.out
 
 
+HOPS = "family = 'run'\nperiod = 0.9\n" + 8 * "[[foot]]\nstart = 0.1\nextent = 0.8\n"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "trot",
+        "trot --speed 3",
+        "trot --duty 0.4 --speed 3",
+        "tripod --legs 6",
+        "hops.toml",
+        "hops.toml --rig spider --speed 0.2",
+        "walk --rig wolf",
+    ],
+)
+def test_check_prints_the_figures_of_the_library_call(words: str, folder: Path) -> None:
+    Path("hops.toml").write_text(HOPS)
+    name, *options = words.split()
+    given = dict(zip(options[::2], options[1::2], strict=True))
+    creature = load_rig(given["--rig"]) if "--rig" in given else None
+    side, row = paired_legs(int(given.get("--legs", 4)))
+    if creature is not None:
+        side, row = creature.legs.side, creature.legs.row
+    gait = read_gait(name) if name.endswith(".toml") else make_gait(name, side, row)
+    if "--duty" in given:
+        duty = float(given["--duty"])
+        gait = replace(gait.with_duty(duty), duty_low=math.nan, duty_high=math.nan)
+    speed = float(given["--speed"]) if "--speed" in given else None
+    check = check_gait(gait, creature, speed=speed)
+    run = polypod_run("gait", name, *options, "--check")
+    assert run.code == 0, run
+    names = () if creature is None else creature.foot_name
+    assert run.out == describe_check(check, names) + "\n"
+    for part in (f"{check.speed:.3g} m/s", f"to {check.body_peak:.2f} g", check.verdict):
+        assert part in run.out
+    assert (f"plausible with  {check.change.text}" if check.change else "plausible") in run.out
+
+
 def test_check_counts_feet() -> None:
     # A trot at duty .45: pairs stand for .45 each, and nobody for the rest.
-    gait = make_gait("trot", *paired_legs(4))
-    text = check(gait)
-    assert "mean duty       0.450" in text
-    assert "at least 0, 1.80 on the mean, at most 2" in text
-    assert "10.0 %" in text
+    run = polypod_run("gait", "trot", "--duty", "0.45", "--check")
+    assert "mean duty       0.450" in run.out
+    assert "at least 0, 1.80 on the mean, at most 2" in run.out
+    assert "10.0 % of the cycle" in run.out
+    assert "bears up to 3.49 times its load in standing" in run.out
+
+
+def test_check_says_that_legs_do_not_reach_so_far(folder: Path) -> None:
+    Path("hops.toml").write_text(HOPS)
+    run = polypod_run("gait", "hops.toml", "--rig", "spider", "--speed", "4", "--check")
+    assert "; the 0.9 s asked for take longer strides than the legs reach" in run.out
+
+
+def test_a_checked_gait_is_drawn_as_it_is_stepped(folder: Path) -> None:
+    run = polypod_run("gait", "trot", "--speed", "3", "--check", "-o", "t.png", "-o", "t.toml")
+    assert run.code == 0, run
+    assert Path("t.png").read_bytes().startswith(b"\x89PNG")
+    # The file keeps the gait as it is, with its range.
+    assert read_gait("t.toml").duty == pytest.approx(0.45)
 
 
 def test_an_odd_leg_is_in_front() -> None:

@@ -165,3 +165,23 @@ def test_no_room_to_stand_names_the_creature(folder: Path) -> None:
     run = polypod("walk", "--scene", "taboo.toml", *SHORT, "-o", "walk.glb")
     assert_refused(run, "taboo.toml", "[[creature]] number 1", "cannot stand")
     assert not Path("walk.glb").exists()
+
+
+def test_a_gait_that_no_animal_walks_is_walked_with_a_warning(folder: Path) -> None:
+    feet = 8 * "[[foot]]\nstart = 0.1\nextent = 0.88\n"
+    Path("hops.toml").write_text(f"family = 'arthropod'\n{feet}")
+    run = polypod("walk", "spider", "--gait", "hops.toml", *SHORT, "--report", "r.json")
+    assert run.code == 0, run
+    warnings = [line for line in run.err.splitlines() if "gait 'hops'" in line]
+    assert len(warnings) == 1
+    assert "is implausible, with 13.1 g at the peak" in warnings[0]
+    assert "; plausible with a " in warnings[0]
+    report = json.loads(Path("r.json").read_text())
+    assert (report["gait"], report["gait_verdict"]) == ("hops", "implausible")
+    assert report["gait_body_peak_g"] == pytest.approx(math.pi / 0.24)
+    assert len(report["gait_reasons"]) > 1
+    run = polypod("walk", "spider", "--gait", "tetrapod", *SHORT, "--report", "r.json")
+    assert "implausible" not in run.err
+    assert json.loads(Path("r.json").read_text())["gait_verdict"] == "plausible"
+    polypod("walk", "spider", *SHORT, "--report", "r.json")
+    assert "gait_verdict" not in json.loads(Path("r.json").read_text())

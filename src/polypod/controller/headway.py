@@ -97,7 +97,7 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any, env: 
         state.judged[c, 2] = 0.0
     halted = state.halted[c] > 0.0
     state.halted[c] = max(state.halted[c] - dt, 0.0)
-    if state.caught[c] == 0:
+    if state.caught[c] == 0 or env.forbidden_count == 0:
         state.judged[c, 2] += dt
     if halted or does in (ARRIVED, BLOCKED) or command.speed[c] <= 0.0:
         state.judged[c, 2] = 0.0
@@ -109,6 +109,11 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any, env: 
     if state.judged[c, 2] < (JUDGED_AGAIN if state.halts[c] > 0 else JUDGED) * pendulum:
         return
     gone = math.hypot(x - state.judged[c, 0], z - state.judged[c, 1])
+    if command.waypoint_count[c] == 0 and env.forbidden_count == 0:
+        # Straight ahead: to go back for a foot is none.
+        course = command.heading[c] + command.travel[c]
+        gone = math.sin(course) * (x - state.judged[c, 0])
+        gone += math.cos(course) * (z - state.judged[c, 1])
     least = LEAST * command.speed[c] * state.judged[c, 2]
     futile = gone < (max(least, MOVED * tables.leg_length) if state.halts[c] > 0 else least)
     state.judged[c, 2] = 0.0

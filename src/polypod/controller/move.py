@@ -60,7 +60,7 @@ def move_body(
         # It does not turn about for a way out either.
         state.detour[c] = 0.0
         state.pace[c] = 0.0
-    note_caught(c, dt, state, tables)
+    note_caught(c, dt, state, tables, env)
     back_x, back_z = way_back(c, state, tables, settings)
     if state.caught[c] > 0:
         state.pace[c] = 0.0

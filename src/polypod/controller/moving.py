@@ -20,6 +20,8 @@ FORESIGHT = 0.8
 # Where it is looked at, leg lengths above the sole, and the room that it keeps.
 ON_FOOT = 0.03
 ROOM = 0.03
+# A foot that pulls by so many leg lengths at a body that cannot move has been carried off.
+CARRIED_OFF = 1e-4
 # A footprint has gone that is so far from where it was foreseen, leg lengths.
 GONE = 1e-3
 
@@ -121,6 +123,15 @@ def is_threatened(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
 
 
 @kernel
+def is_carried_off(c: int, k: int, state: Any, tables: Any, env: Any) -> bool:
+    """Return whether what a foot stands on takes it out of its leg's reach, and holds the body."""
+    support = state.foot_support[c, k]
+    if support < 0 or state.held[c] > 0.0:
+        return False
+    return bool(state.pull[c, k] > CARRIED_OFF * tables.legs.length[k])
+
+
+@kernel
 def foot_in_the_way(c: int, first: int, state: Any, tables: Any, env: Any) -> int:
     """Return the first standing foot from `first` on that must step away at once.
 
@@ -130,7 +141,9 @@ def foot_in_the_way(c: int, first: int, state: Any, tables: Any, env: Any) -> in
     if env.mover_count == 0:
         return int(count)
     for k in range(first, count):
-        if not state.swinging[c, k] and is_threatened(c, k, state, tables, env):
+        if state.swinging[c, k]:
+            continue
+        if is_threatened(c, k, state, tables, env) or is_carried_off(c, k, state, tables, env):
             return int(k)
     return int(count)
 

@@ -22,6 +22,7 @@ from polypod.controller.moving import foot_in_the_way, step_out, way_blocked
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import (
     FASTEST_CATCH_UP,
+    is_held_up,
     swing_time_left,
     take_new_way,
     way_on,
@@ -45,6 +46,7 @@ def plan_feet(
         if not state.swinging[c, k] or state.reaching[c, k]:
             continue
         blocked = env.mover_count > 0 and way_blocked(c, k, state, tables, env)
+        blocked = blocked or is_held_up(c, k, state)
         blocked = blocked or (state.crowded[c] and is_taken(c, k, state, tables, scratch))
         if state.swing_progress[c, k] > settings.replan_until and not blocked:
             continue

@@ -27,8 +27,11 @@ FORGET = 30.0
 
 
 @kernel
-def note_caught(c: int, dt: float, state: Any, tables: Any) -> None:
-    """Note which foot is caught, if any: of several the one that has waited for longest."""
+def note_caught(c: int, dt: float, state: Any, tables: Any, env: Any) -> None:
+    """Note which foot is caught, if any: of several the one that has waited for longest.
+
+    One that stands is so only by what is forbidden: if it waits before a trench, no way back helps.
+    """
     count = state.swinging.shape[1]
     state.caught_clock[c] += dt
     state.shy[c] *= math.exp(-dt / (FORGET * tables.pendulum_time))
@@ -44,6 +47,8 @@ def note_caught(c: int, dt: float, state: Any, tables: Any) -> None:
         return
     most = 1.0
     for k in range(count):
+        if not state.swinging[c, k] and env.forbidden_count == 0:
+            continue
         cycles = state.waiting[c, k] * state.cycle_rate[c]
         cycles /= CAUGHT_IN_AIR if state.swinging[c, k] else CAUGHT
         if cycles > most and not state.reaching[c, k]:

@@ -20,7 +20,7 @@ SHORTEST_SWING = 0.15
 # A swing that has gone less than this since its plan is planned anew only for so much more.
 SETTLED = 0.25
 UNSETTLED = 3.0
-# So does one whose leg could not follow its way for so many cycles.
+# One whose leg could not follow its way for so many cycles plans anew.
 HELD_UP = 0.2
 
 
@@ -80,16 +80,20 @@ def swing_time_left(c: int, k: int, state: Any) -> float:
 
 
 @kernel
+def is_held_up(c: int, k: int, state: Any) -> bool:
+    """Return whether a swinging foot's leg could not follow its way for a while."""
+    return bool(state.waiting[c, k] * state.cycle_rate[c] > HELD_UP)
+
+
+@kernel
 def wishes_new_plan(
     c: int, k: int, preferred: Vec3, state: Any, tables: Any, settings: Any
 ) -> bool:
-    """Return whether a swinging foot's preferred place has moved, or its body holds it back."""
+    """Return whether a swinging foot's preferred place has moved so far that it shall follow."""
     moved = length_plan(preferred - load_vec3(state.foot_preferred[c, k]))
     # Planned anew in every frame, a foot would for ever be at the slow start of its way.
     wanted = 1.0 if state.swing_progress[c, k] > SETTLED else UNSETTLED
-    held_up = state.waiting[c, k] * state.cycle_rate[c] > HELD_UP
-    far = moved > wanted * settings.replan_distance * tables.legs.length[k]
-    return bool(far or held_up)
+    return moved > wanted * settings.replan_distance * tables.legs.length[k]
 
 
 @kernel

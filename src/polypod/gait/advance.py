@@ -41,37 +41,49 @@ def fastest_foot_speed(c: int, pose: PlanPose, state: Any, tables: Any) -> float
 @kernel
 def stance_travel_limit(c: int, state: Any, command: Any, tables: Any) -> float:
     """Return how far every leg lets its foot travel under the body while it stands, metres."""
-    ik = tables.ik
-    sideways = abs(math.sin(command.travel[c]))
+    return travel_limit(
+        state.goal_start[c], state.goal_extent[c], command.travel[c], tables.ik, tables.legs
+    )
+
+
+@kernel
+def travel_limit(start: Any, extent: Any, direction: float, ik: Any, legs: Any) -> float:
+    """Return how far the legs let a foot travel under the body while it stands, metres.
+
+    Args:
+        start: [K] the gait's disks.
+        extent: [K] the gait's disks.
+        direction: rad, of the travel from straight ahead.
+        ik: an IkTable.
+        legs: a LegTable.
+    """
+    sideways = abs(math.sin(direction))
     limit = math.inf
     for k in range(ik.stance_travel.shape[0]):
         travel = ik.stance_travel[k] + sideways * (ik.stance_travel_least[k] - ik.stance_travel[k])
         limit = min(limit, travel)
-    return min(SWING_LAG * limit, neighbour_limit(c, state, command, tables))
+    return min(SWING_LAG * limit, neighbour_limit(start, extent, direction, legs))
 
 
 @kernel
-def neighbour_limit(c: int, state: Any, command: Any, tables: Any) -> float:
+def neighbour_limit(start: Any, extent: Any, direction: float, legs: Any) -> float:
     """Return the stance travel at which a foot just reaches the one behind it, metres.
 
     Of two neighbours on a side, the front one that stands since an earlier touchdown has come back
     toward the hind one: by the lag of their touchdowns times the stride. Arthropods do not let
     their legs cross there; long upright legs pass beside each other.
     """
-    legs = tables.legs
     limit = math.inf
-    across = math.sin(command.travel[c])
-    along = math.cos(command.travel[c])
+    across = math.sin(direction)
+    along = math.cos(direction)
     for back in range(legs.length.shape[0]):
         if legs.upright[back] or legs.side[back] == 0:
             continue
         for front in range(legs.length.shape[0]):
             if legs.side[front] != legs.side[back] or legs.row[front] != legs.row[back] + 1:
                 continue
-            duty = 1.0 - state.goal_extent[c, back]
-            landed_back = state.goal_start[c, back] + state.goal_extent[c, back]
-            landed_front = state.goal_start[c, front] + state.goal_extent[c, front]
-            lag = wrap_phase(landed_back - landed_front)
+            duty = 1.0 - extent[back]
+            lag = wrap_phase(start[back] + extent[back] - (start[front] + extent[front]))
             if lag < duty:
                 gap = (legs.sole_stance[front, 2] - legs.sole_stance[back, 2]) * along
                 gap += (legs.sole_stance[front, 0] - legs.sole_stance[back, 0]) * across

@@ -1,4 +1,4 @@
-"""Gaits to look at: disks and footfalls, as a picture and as text."""
+"""Gaits to look at: disks, footfalls and the body's motion, as a picture and as text."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from polypod.gait.files import write_whole
+from polypod.gait.orbit import GRAVITY, Orbit, orbit_of, vault_of
 from polypod.gait.pattern import Gait
 
 SWING_COLOUR = "#e8833a"
@@ -18,6 +19,7 @@ STANCE_COLOUR = "#2f4b6e"
 NEEDLE_COLOUR = "#b01030"
 DISKS_A_ROW = 8
 BAR_CELLS = 48
+SAMPLES_A_CYCLE = 240
 
 
 def draw_gait(
@@ -25,14 +27,18 @@ def draw_gait(
     path: str | os.PathLike[str],
     needle: float = 0.0,
     foot_name: Sequence[str] = (),
+    orbit: Orbit | None = None,
 ) -> None:
-    """Draw a gait's disks (P1 Figure 8) above its footfall diagram and feet down, to a PNG.
+    """Draw a gait to a PNG: disks (P1 Figure 8), footfalls, and the body's motion (P2 Figure 11).
+
+    Heights and forces are shown over two cycles, the body's and those of each foot's own particle.
 
     Args:
         gait: the gait.
         path: the PNG to write.
         needle: phase at which the needle is drawn.
         foot_name: [K] names of the feet; numbers where omitted.
+        orbit: the motion; omitted: in units of g T^2 for any size, upright but for arthropods'.
 
     Raises:
         GaitError: the file cannot be written.
@@ -43,9 +49,9 @@ def draw_gait(
     rows = math.ceil(gait.foot_count / DISKS_A_ROW)
     columns = min(gait.foot_count, DISKS_A_ROW)
     diagram = 0.22 * gait.foot_count + 0.9
-    figure = Figure(figsize=(9.0, 1.45 * rows + diagram + 1.9), layout="constrained")
+    figure = Figure(figsize=(9.0, 1.45 * rows + diagram + 5.1), layout="constrained")
     figure.suptitle(_headline(gait), fontsize=10)
-    halves = figure.add_gridspec(2, 1, height_ratios=(1.45 * rows, diagram + 1.4))
+    halves = figure.add_gridspec(2, 1, height_ratios=(1.45 * rows, diagram + 4.6))
     above, below = figure.add_subfigure(halves[0]), figure.add_subfigure(halves[1])
     disks = above.subplots(rows, columns, squeeze=False)
     for place, axes in enumerate(disks.flat):
@@ -53,10 +59,11 @@ def draw_gait(
         axes.axis("off")
         if place < gait.foot_count:
             _draw_disk(axes, gait, place, needle, names[place])
-    bars, down = below.subplots(2, 1, sharex=True, height_ratios=(diagram, 1.0))
+    bars, down, *motion = below.subplots(4, 1, sharex=True, height_ratios=(diagram, 1.0, 1.8, 1.4))
     _draw_footfalls(bars, gait, names)
     _draw_feet_down(down, gait)
-    for axes in (bars, down):
+    _draw_motion(motion, gait, orbit)
+    for axes in (bars, down, *motion):
         axes.axvline(needle, color=NEEDLE_COLOUR, linewidth=1.2)
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=110)
@@ -137,5 +144,29 @@ def _draw_feet_down(axes: Any, gait: Gait) -> None:
     axes.set_ylim(-0.3, gait.maximum_feet_down * 1.08 + 0.3)
     axes.yaxis.set_major_locator(MaxNLocator(4, integer=True))
     axes.set_ylabel("feet down", fontsize=7)
-    axes.set_xlabel("cycles", fontsize=8)
     axes.tick_params(labelsize=7)
+
+
+def _draw_motion(motion: Sequence[Any], gait: Gait, orbit: Orbit | None) -> None:
+    """Draw heights about their mean and forces: the body's thick, the feet's particles' thin."""
+    if orbit is None:
+        vault = vault_of(gait, upright=gait.family != "arthropod")
+        orbit, scale, unit = orbit_of(gait, GRAVITY**-0.5, vault=vault), 1.0, "g T²"
+    else:
+        scale, unit = 100.0, "cm"
+    phase = np.linspace(0.0, 2.0, 2 * SAMPLES_A_CYCLE + 1)
+    height, force = motion
+    height.plot(phase, scale * orbit.foot_height(phase), color=SWING_COLOUR, linewidth=0.7)
+    height.plot(phase, scale * orbit.height(phase), color=STANCE_COLOUR, linewidth=2.0)
+    height.set_ylabel(f"height, {unit}", fontsize=7)
+    size = scale * orbit.excursion
+    height.set_title(
+        f"the body (dark), {size:.2g} {unit} up and down, and each foot's own particle", fontsize=8
+    )
+    force.plot(phase, orbit.foot_force(phase), color=SWING_COLOUR, linewidth=0.7)
+    force.plot(phase, orbit.force(phase), color=STANCE_COLOUR, linewidth=2.0)
+    force.axhline(1.0, color="#888888", linewidth=0.6)
+    force.set_ylabel("force, g", fontsize=7)
+    force.set_xlabel("cycles", fontsize=8)
+    for axes in motion:
+        axes.tick_params(labelsize=7)

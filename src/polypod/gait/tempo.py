@@ -21,6 +21,8 @@ LONGEST_PERIOD_SPRAWLING = 12.0
 # Fastest cycle, in units of sqrt(L / g): cheetah .9, ant .9, cockroach, iguana and horse 1.0 to
 # 1.2; film creatures may be a little quicker.
 SHORTEST_PERIOD = 0.6
+# Comfortable speeds: Froude numbers of .2 for upright legs and .06 for sprawling ones.
+UPRIGHT_SPEED, SPRAWLING_SPEED = 0.45, 0.25
 
 
 class Tempo(NamedTuple):
@@ -109,3 +111,10 @@ def top_speed(leg_length: float, duty_low: float, stance_travel_limit: float) ->
     """Return the speed, m/s, beyond which legs would have to cycle faster than any animal's."""
     shortest = SHORTEST_PERIOD * math.sqrt(leg_length / GRAVITY)
     return max(stance_travel_limit, 1e-3 * leg_length) / (duty_low * shortest)
+
+
+def comfortable_speed(hip_height: float, leg_length: float, upright: bool) -> float:
+    """Return the speed, m/s, at which a creature walks when nobody says how fast; metres."""
+    if upright:
+        return UPRIGHT_SPEED * math.sqrt(GRAVITY * max(hip_height, 0.05 * leg_length))
+    return SPRAWLING_SPEED * math.sqrt(GRAVITY * leg_length)

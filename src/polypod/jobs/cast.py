@@ -18,13 +18,12 @@ from polypod.jobs.rig_options import RIG_OPTIONS, load_given_rig
 if TYPE_CHECKING:
     from polypod.environment.scene import CreatureSpec, Scene
     from polypod.gait.pattern import Gait
+    from polypod.gait.validation import GaitCheck
     from polypod.herd import Herd
     from polypod.morphology.types import Morphology
     from polypod.world import World
 
 GRAVITY = 9.81  # m/s^2
-# Comfortable speeds: Froude numbers of .2 for upright legs and .06 for sprawling ones.
-UPRIGHT_SPEED, SPRAWLING_SPEED = 0.45, 0.25
 FASTEST = 100.0  # m/s
 Places = tuple[tuple[float, float], ...]
 
@@ -194,12 +193,12 @@ def gait_file(name: str, folder: Path = Path()) -> Path | None:
 
 def comfortable_speed(morphology: Morphology) -> float:
     """Return the speed, m/s, at which a creature walks when nobody says how fast."""
+    from polypod.gait import tempo
+
     legs = morphology.legs
-    length = float(legs.length.mean())
-    if float(legs.upright.mean()) > 0.5:
-        hip = float((legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]).mean())
-        return UPRIGHT_SPEED * math.sqrt(GRAVITY * max(hip, 0.05 * length))
-    return SPRAWLING_SPEED * math.sqrt(GRAVITY * length)
+    hip = float((legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]).mean())
+    upright = float(legs.upright.mean()) > 0.5
+    return tempo.comfortable_speed(hip, float(legs.length.mean()), upright)
 
 
 def walking_seconds(roles: list[Role], default: float) -> float:
@@ -252,3 +251,12 @@ def overdone(role: Role, herd: Herd) -> str | None:
         f"{role.morphology.name} is asked for {role.speed:.3g} m/s, and its legs can do about "
         f"{most:.2g} m/s in this gait; its feet will not keep up"
     )
+
+
+def judge_gait(role: Role) -> GaitCheck | None:
+    """Return what to think of the gait that is asked of a role at its speed; None: none is."""
+    if role.gait is None:
+        return None
+    from polypod.gait.validation import check_gait
+
+    return check_gait(role.gait, role.morphology, speed=role.speed)

@@ -60,11 +60,12 @@ def progress(title: str) -> Iterator[Callable[[int, int], None]]:
 class CompileCounter:
     """Listens to Numba, and says that kernels are compiled from the moment one is."""
 
-    def __init__(self, first_run: bool) -> None:
+    def __init__(self, first_run: bool, whole: bool = True) -> None:
         self.count = 0
         self.depth = 0
         self.seconds = 0.0
         self.first_run = first_run
+        self.whole = whole
         self.started = 0.0
         self.said = 0.0
 
@@ -87,7 +88,8 @@ class CompileCounter:
     def _begin(self) -> None:
         self.said = time.monotonic()
         about = "first run only" if self.first_run else "and keeping them for later runs"
-        note(f"compiling kernels ({about}, about {COMPILE_SECONDS} s)")
+        time_needed = f"about {COMPILE_SECONDS} s" if self.whole else "some seconds"
+        note(f"compiling kernels ({about}, {time_needed})")
 
     def _tell(self) -> None:
         now = time.monotonic()
@@ -108,12 +110,12 @@ class CompileCounter:
 
 
 @contextmanager
-def telling_of_compilation() -> Iterator[None]:
-    """Say on screen what is compiled within, if anything is."""
+def telling_of_compilation(whole: bool = True) -> Iterator[None]:
+    """Say on screen what is compiled within, if anything is; `whole`: all that a walk needs."""
     folder = prepare_cache()
     from numba.core import event
 
-    counter = CompileCounter(first_run=not any(folder.rglob("*.nbi")))
+    counter = CompileCounter(first_run=not any(folder.rglob("*.nbi")), whole=whole)
     events: Any = event
 
     class Listener(event.Listener):
@@ -125,7 +127,7 @@ def telling_of_compilation() -> Iterator[None]:
 
     listener = Listener()
     events.register("numba:compile", listener)
-    beside = compile_rest.start() if counter.first_run else None
+    beside = compile_rest.start() if counter.first_run and whole else None
     try:
         yield
     finally:

@@ -15,6 +15,7 @@ from polypod.jobs.values import filled, number, waypoints, whole
 if TYPE_CHECKING:
     from polypod.environment.environment import Environment
     from polypod.environment.scene import Scene
+    from polypod.gait.validation import GaitCheck
     from polypod.jobs.cast import Role
     from polypod.report.record import Recording
 
@@ -104,9 +105,9 @@ def run(given: argparse.Namespace) -> int:
     if scene is not None and scene.pushes:
         warn(f"{scene.path} has pushes, which this version does not simulate; it walks unpushed")
     with telling_of_compilation():
-        recordings, environment = _walk(roles, scene, seconds, given.fps)
+        recordings, environment, gaits = _walk(roles, scene, seconds, given.fps)
         reports = _judge_walks(
-            roles, recordings, environment, seconds, bool(given.report and outputs.glb)
+            roles, gaits, recordings, environment, seconds, bool(given.report and outputs.glb)
         )
         written = write_outputs(outputs, recordings, environment, reports)
     _sum_up(reports, written)
@@ -139,7 +140,7 @@ def _judge_length(roles: list[Role], seconds: float, fps: float) -> None:
 
 def _walk(
     roles: list[Role], scene: Scene | None, seconds: float, fps: float
-) -> tuple[list[Recording], Environment]:
+) -> tuple[list[Recording], Environment, list[GaitCheck | None]]:
     from polypod.environment.environment import Environment
     from polypod.jobs.cast import enter, overdone
     from polypod.recording import record_walk
@@ -155,12 +156,26 @@ def _walk(
         too_fast = overdone(role, herd)
         if too_fast is not None:
             warn(too_fast)
+    gaits = _judge_gaits(roles)
     with progress("walking") as advance:
-        return record_walk(world, seconds, fps, advance), environment
+        return record_walk(world, seconds, fps, advance), environment, gaits
+
+
+def _judge_gaits(roles: list[Role]) -> list[GaitCheck | None]:
+    """Return what to think of each role's gait, and warn of those that no animal could walk."""
+    from polypod.gait.validation import IMPLAUSIBLE
+    from polypod.jobs.cast import judge_gait
+
+    checks = [judge_gait(role) for role in roles]
+    for role, check in zip(roles, checks, strict=True):
+        if check is not None and check.verdict == IMPLAUSIBLE:
+            warn(f"{role.morphology.name}: {check.sentence}")
+    return checks
 
 
 def _judge_walks(
     roles: list[Role],
+    gaits: list[GaitCheck | None],
     recordings: list[Recording],
     environment: Environment,
     seconds: float,
@@ -172,9 +187,9 @@ def _judge_walks(
     from polypod.report.verdict import failures, remarks
 
     reports: list[dict[str, object]] = []
-    who = [role for role in roles for _ in range(role.count)]
+    who = [pair for pair in zip(roles, gaits, strict=True) for _ in range(pair[0].count)]
     with progress("judging") as advance:
-        for role, recording in zip(who, recordings, strict=True):
+        for (role, gait), recording in zip(who, recordings, strict=True):
             asked = min(role.speed * seconds, role.way)
             figures = measure(recording, environment.table, commanded_distance_m=asked)
             if played:
@@ -183,6 +198,7 @@ def _judge_walks(
                 {
                     "creature": role.morphology.name,
                     "speed_asked_m_s": role.speed,
+                    **({} if gait is None else _gait_figures(gait)),
                     **figures,
                     "failures": failures(figures),
                     "remarks": remarks(figures),
@@ -190,6 +206,16 @@ def _judge_walks(
             )
             advance(len(reports), len(who))
     return reports
+
+
+def _gait_figures(check: GaitCheck) -> dict[str, object]:
+    """Return what a report says of the gait that was asked for."""
+    return {
+        "gait": check.gait.name,
+        "gait_verdict": check.verdict,
+        "gait_reasons": list(check.reasons),
+        "gait_body_peak_g": check.body_peak,
+    }
 
 
 def _sum_up(reports: list[dict[str, Any]], written: list[Path]) -> None:
