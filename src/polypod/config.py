@@ -11,6 +11,8 @@ Tuning, by symptom:
 * turns look like a turret's: lower `turn_rate`; it misses waypoints: raise it;
 * feet hesitate in front of obstacles: raise `wider_search` (costs planning time);
 * creatures of a crowd crowd too much, or too little: raise or lower `personal_space`;
+* the body bounces or nods too much, or looks as if it floated: `bounce`, `nod`, `vaulting`;
+* it rocks from side to side: lower `sway`;
 * swing feet twitch when the heading changes: raise `replan_distance`;
 * feet scrape or step too high: `step_height`; they start and stop too gently: `swing_profile`;
 * a foot's toes or heel hang in the air on steep ground: raise `foot_tilt`, then `ankle_range`;
@@ -31,6 +33,16 @@ from polypod.errors import SettingError, choices
 PROFILE_BELL = 0
 PROFILE_CONSTANT = 1
 PROFILES = {"bell": PROFILE_BELL, "constant": PROFILE_CONSTANT}
+# Where the body's vertical motion comes from.
+MOTION_NONE = 0
+MOTION_SINUSOID = 1
+MOTION_PARTICLES = 2
+MOTIONS = {"particles": MOTION_PARTICLES, "sinusoid": MOTION_SINUSOID, "none": MOTION_NONE}
+# Alexander's q of a human walk's two-humped force (BIOMECHANICS 3), and the forces by name; beyond
+# 1 a foot would pull.
+WALKING_VAULT = 0.4
+VAULTS = {"gait": math.nan, "bounce": 0.0, "vault": WALKING_VAULT}
+NAMED = {"swing_profile": PROFILES, "body_motion": MOTIONS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,8 +93,23 @@ class Settings:
     upright_lean: float = 0.5
     """For legs that stand upright: share of that tilt by which the feet stay under the body."""
 
-    bob: float = 1.0
-    """Scale of P1's sinusoidal movement of the body; 0 switches it off."""
+    body_motion: str = "particles"
+    """What moves the body up and down: "particles", one for each foot, driven by the gait (P2 4),
+    "sinusoid", P1's, or "none"."""
+
+    bounce: float = 1.0
+    """Scale of that motion; above 1 feet may seem to pull."""
+
+    vaulting: str | float = "gait"
+    """Force of a foot through its stance: "vault", with the body highest at mid-stance, "bounce",
+    with it lowest, or "gait": walks of upright animals vault, all else bounces. Also Alexander's q,
+    0 to 1, of which these are 0.4 and 0."""
+
+    nod: float = 1.0
+    """Scale of pitch and roll by the gait."""
+
+    sway: float = 1.0
+    """Scale of an upright animal's sway toward the feet that stand."""
 
     feedback_share: float = 0.35
     """Share of the mean offset of chosen footprints by which the body shifts (P1 3.2, Fig 7)."""
@@ -110,11 +137,14 @@ class Settings:
         """Refuse what no walk can use."""
         for field in dataclasses.fields(self):
             value = getattr(self, field.name)
-            if field.name == "swing_profile":
-                if value not in PROFILES:
+            if field.name in NAMED:
+                if not isinstance(value, str) or value not in NAMED[field.name]:
                     raise SettingError(
-                        f"setting swing_profile is {value!r}; choose from {choices(PROFILES)}"
+                        f"setting {field.name} is {value!r}; choose from "
+                        f"{choices(NAMED[field.name])}"
                     )
+            elif field.name == "vaulting":
+                self._judge_vaulting()
             elif value is None and field.default is None:
                 continue
             elif not isinstance(value, int | float) or not 0.0 <= float(value) <= 1e3:
@@ -122,13 +152,28 @@ class Settings:
                     f"setting {field.name} is {value!r}; it must be a number from 0 to 1000"
                 )
 
+    def _judge_vaulting(self) -> None:
+        value = self.vaulting
+        if isinstance(value, str):
+            if value in VAULTS:
+                return
+        elif isinstance(value, int | float) and 0.0 <= value <= 1.0:
+            return
+        raise SettingError(
+            f"setting vaulting is {value!r}; choose from {choices(VAULTS)}, or give a number from "
+            "0 to 1"
+        )
+
     def values(self) -> Any:
         """Return the settings as a named tuple of floats, as kernels read them.
 
-        A profile is its number; what is left to the creature's build is NaN.
+        A name is its number; what is left to the creature's build or gait is NaN.
         """
         own = dataclasses.asdict(self)
-        own["swing_profile"] = PROFILES[self.swing_profile]
+        for name, numbers in NAMED.items():
+            own[name] = numbers[own[name]]
+        if isinstance(self.vaulting, str):
+            own["vaulting"] = VAULTS[self.vaulting]
         return SettingValues(
             *(math.nan if value is None else float(value) for value in own.values())
         )

@@ -9,8 +9,9 @@ from __future__ import annotations
 import time
 from typing import Any
 
+from polypod.body.motion import move_trunk, trunk_rotation
 from polypod.body.pose import update_tilt, wished_height
-from polypod.body.support import body_rotation, feet_plane
+from polypod.body.support import feet_plane
 from polypod.compute import kernel
 from polypod.controller.activity import note_activity
 from polypod.controller.headway import note_headway
@@ -107,13 +108,15 @@ def settle_creatures(
         # Tilt and height over the feet and over what lies beneath.
         plane = feet_plane(c, state, tables)
         update_tilt(c, seconds, plane, state, tables, settings)
-        lean = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+        # What the gait adds to them.
+        sway = move_trunk(c, seconds, state, command, tables, settings)
+        lean = trunk_rotation(c, pose.heading, state)
         height = wished_height(
             c, seconds, pose, plane, lean, state, command, tables, settings, env, scratch
         )
         # The body goes as far as its legs allow, and the swinging feet with it.
         before = load_vec3(state.position[c])
-        settle_body(c, seconds, pose, height, state, command, tables, env, scratch)
+        settle_body(c, seconds, pose, height, sway, state, command, tables, env, scratch)
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
         reach_feet(c, seconds, state, command, tables)

@@ -24,6 +24,7 @@ from polypod.footprints.plan import PlanScratch, make_plan_scratch
 from polypod.footprints.settings import PlanSettings
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
+from polypod.morphology.girdles import find_girdles
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
@@ -96,6 +97,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
     return HerdTables(
         legs=legs,
         ik=ik,
+        girdles=find_girdles(legs),
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
@@ -141,7 +143,7 @@ class Herd:
         self.morphology = morphology
         self.plan_settings = PlanSettings()
         self.tables = make_tables(morphology)
-        self.state = make_state(count, feet, joints)
+        self.state = make_state(count, feet, joints, len(self.tables.girdles.place))
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
         self.command.step_height = min(

@@ -12,6 +12,8 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from polypod.activity import STANDING
+from polypod.body.particles import HARMONICS
+from polypod.morphology.girdles import Girdles
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
 from polypod.paths.curve import PathRow, path_store
 from polypod.routes.state import RouteState, make_route_state
@@ -30,6 +32,7 @@ class HerdTables(NamedTuple):
 
     legs: LegTable
     ik: Any  # polypod.ik.table.IkTable
+    girdles: Girdles
     body: BodyTable
     joints: JointTable
     leg_length: float  # mean over legs, m: the unit of all tolerances
@@ -123,6 +126,23 @@ class HerdState(NamedTuple):
     slope: FloatArray  # [C, 2] of the plane through the feet: body z (pitch), body x (roll)
     tilt: FloatArray  # [C, 2, 3] smoothed slope, its rate, and the input's low pass
     lift: FloatArray  # [C, 3] smoothed height of the body centre, world, its rate, low pass, m
+    particle_offset: FloatArray  # [C, K] m: each foot's particle over the preferred height
+    particle_rise: FloatArray  # [C, K] m/s: how fast it rises; what pushes the body adds to it
+    girdle_offset: FloatArray  # [C, G] m: mean of the particles of a girdle's feet
+    beat: FloatArray  # [C, HARMONICS, 2] m: heave at full gravity, cosines and sines of the needle
+    gravity_share: FloatArray  # [C] of gravity that the gait's bounce takes; the rest is borne
+    beat_period: FloatArray  # [C] s a cycle, smoothed, by which the body bounces
+    vault: FloatArray  # [C] Alexander's q of the feet's force
+    sinusoid_share: FloatArray  # [C] how much of P1's sinusoid there is
+    nod_share: FloatArray  # [C, 2] part of what the girdles nod and roll by that the trunk takes on
+    heave: FloatArray  # [C] m: body centre over where it would be without its gait's motion
+    heave_step: FloatArray  # [C] m: by how much that has changed in this step
+    room: FloatArray  # [C, 2] m, at most 0: how far the body stays down for legs at their end, and
+    # the cycles since
+    nod: FloatArray  # [C, 2] slope forward and to the left that the gait adds to the tilt
+    sway: FloatArray  # [C] m: body centre to the left of its course
+    swayed: FloatArray  # [C] m: what it would be in full
+    sway_share: FloatArray  # [C, 3] smoothed share of that, its rate, low pass
     joint_position: FloatArray  # [C, J, 3]
     joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
     foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it
@@ -146,6 +166,7 @@ class HerdCommand(NamedTuple):
     gait_share: FloatArray  # [C, K] each foot's duty over the mean duty
     gait_lag: FloatArray  # [C, K] shift of the touchdown per unit of mean duty
     gait_duty: FloatArray  # [C, 3] mean duty at which it was stated, lowest, highest
+    gait_vault: FloatArray  # [C] Alexander's q of upright legs in that gait
     gait_number: IntArray  # [C] counts the changes of gait
     blend_cycles: FloatArray  # [C] cycles in which a transition takes place
     waypoints: FloatArray  # [C, W, 2] x, z
@@ -164,7 +185,7 @@ def _dtype(hint: Any) -> Any:
     return np.bool_ if hint == BoolArray else np.float64
 
 
-def make_state(count: int, feet: int, joints: int) -> HerdState:
+def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
     """Return the state of a herd, all zero."""
     c, k, j = count, feet, joints
     scalar = dict.fromkeys(
@@ -194,6 +215,14 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "activity",
             "halted",
             "halts",
+            "gravity_share",
+            "beat_period",
+            "vault",
+            "sinusoid_share",
+            "heave",
+            "heave_step",
+            "sway",
+            "swayed",
             "caught",
             "caught_clock",
             "shy",
@@ -225,6 +254,8 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
                 "plan_clock",
                 "plan_seconds",
                 "swing_begun",
+                "particle_offset",
+                "particle_rise",
             ),
         ),
         (c, k),
@@ -264,6 +295,12 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         "judged": (c, 3),
         "tilt": (c, 2, 3),
         "lift": (c, 3),
+        "girdle_offset": (c, girdles),
+        "beat": (c, HARMONICS, 2),
+        "nod_share": (c, 2),
+        "nod": (c, 2),
+        "room": (c, 2),
+        "sway_share": (c, 3),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),
     }
@@ -287,6 +324,7 @@ def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
     shapes: dict[str, tuple[int, ...]] = {
         **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
         **dict.fromkeys(("period", "blend_cycles", "waypoint_count", "gait_number"), (c,)),
+        "gait_vault": (c,),
         "spacing": (c, k, 2),
         "reaching": (c, k),
         "reach_place": (c, k, 3),

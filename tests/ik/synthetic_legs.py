@@ -49,6 +49,7 @@ def make_legs(
         roll_pivot=sole.copy(),
         toe_joint=np.full(count, -1, np.int64),
         section_radius=np.zeros((count, most + 1)),
+        weight=np.full(count, 1.0 / count),
         side=np.array(side if side is not None else np.sign(sole[:, 0]), dtype=np.int64),
         row=np.array(row if row is not None else np.zeros(count), dtype=np.int64),
         upright=np.full(count, upright, dtype=np.bool_),

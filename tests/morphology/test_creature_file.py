@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from authored_rigs import quadruped
 
-from polypod.errors import RigError
+from polypod.errors import RigError, SettingError
 from polypod.morphology.describe import describe
 from polypod.morphology.load import load_rig
 
@@ -24,6 +24,10 @@ half_size = [0.2, 0.3, 0.8]
 
 [foot."HindFoot.L"]
 half_size = [0.1, 0.2]
+weight = 2.0
+
+[foot."HindFoot.R"]
+weight = 2
 
 [limit."HindUpper.L"]
 flexion = 1.2
@@ -53,6 +57,8 @@ def test_everything_it_says_holds(tmp_path):
     assert morphology.body.half_size.tolist() == [0.2, 0.3, 0.8]
     assert legs.foot_half_size[3].tolist() == [0.1, 0.2]
     assert legs.foot_half_size[2] == pytest.approx([0.08, 0.14], abs=1e-6)
+    assert legs.weight == pytest.approx([1 / 6, 1 / 6, 1 / 3, 1 / 3])
+    assert "with 67% of the weight" in describe(morphology)
     assert legs.hip_limit[3, [0, 2]].tolist() == [1.2, 0.4]
     assert np.isnan(legs.hip_limit[3, 1])
     assert np.isnan(legs.hip_limit[:3]).all()
@@ -94,6 +100,9 @@ WRONG = {
     'rig = "authored.glb"\n[limit."HindLower.L"]\ntwist = 0.4': r"twist: is not for this joint",
     'rig = "authored.glb"\n[foot.Head]\nhalf_size = [1, 1]': r'foot."Head": is no foot; feet are',
     'rig = "authored.glb"\n[foot.Head]\nhalf_size = [0, 1]': r"half_size: must be a number above",
+    'rig = "authored.glb"\n[foot.Head]\nweight = 1': r'foot."Head": is no foot; feet are',
+    'rig = "authored.glb"\n[foot.Head]\nweight = 0': r"weight: must be a number above 0",
+    'rig = "authored.glb"\n[foot.Head]\nweight = inf': r"weight: must be a number above 0",
     'rig = "authored.glb"\n[foot]\nhalf_size = 3': r"foot.half_size: must be a table",
     'rig = "absent.glb"': r"cannot be read",
     'rig = "dragon"': r"is no rig",
@@ -123,3 +132,14 @@ def test_the_description_says_what_holds_and_what_was_guessed(tmp_path):
     guessed = describe(load_rig(quadruped().write(tmp_path)))
     for option in ("--forward", "--leg", "--height", "--spine"):
         assert option in guessed.split("guessed:")[1]
+
+
+def test_weights_may_be_given_by_the_caller(tmp_path):
+    quadruped().write(tmp_path)
+    path = tmp_path / "authored.glb"
+    legs = load_rig(path, weights={"HindFoot.L": 3.0}).legs
+    assert sorted(legs.weight) == pytest.approx([1 / 6, 1 / 6, 1 / 6, 1 / 2])
+    with pytest.raises(SettingError, match=r"weights: 'HindFoot.L': must be a number above 0"):
+        load_rig(path, weights={"HindFoot.L": 0.0})
+    with pytest.raises(RigError, match=r'foot."Head": is no foot'):
+        load_rig(path, weights={"Head": 2.0})

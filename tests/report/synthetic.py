@@ -106,6 +106,7 @@ def morphology() -> Morphology:
         roll_pivot=REST_SOLES.copy(),
         toe_joint=np.full(6, -1, np.int64),
         section_radius=np.tile([0.01, 0.01, 0.0], (6, 1)),
+        weight=np.full(6, 1.0 / 6),
         side=np.array([1, -1, 1, -1, 1, -1], np.int64),
         row=np.array([0, 0, 1, 1, 2, 2], np.int64),
         upright=np.zeros(6, np.bool_),

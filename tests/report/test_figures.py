@@ -92,6 +92,8 @@ def test_bounce_and_implied_force_are_those_of_a_cosine():
     assert figures["body_force_least_g"] == pytest.approx(1.0 - curvature / 9.81, rel=1e-6)
     assert figures["body_force_mean_g"] == pytest.approx(1.0, abs=0.01)
     assert figures["body_tremor_share"] < 0.001
+    # Both tripods' mid-stances are at the same phase of its two beats.
+    assert figures["body_mid_stance"] == pytest.approx(math.cos(2 * math.pi * DUTY), abs=0.1)
 
 
 def test_tremor_is_the_share_of_energy_above_six_strides():

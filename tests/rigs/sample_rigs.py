@@ -203,8 +203,8 @@ def morphology_of(document: GltfDocument, metres_per_unit: float = 0.01) -> Morp
     none = np.zeros(0, np.int64)
     legs = LegTable(
         none, np.zeros((0, 1), np.int64), none, np.zeros((0, 2, 3)), none3, none3, np.zeros(0),
-        none2, np.zeros(0), none, none3, none, none2, none, none, np.zeros(0, np.bool_),
-        np.zeros((0, 1, 2)), none3,
+        none2, np.zeros(0), none, none3, none, none2, np.zeros(0), none, none,
+        np.zeros(0, np.bool_), np.zeros((0, 1, 2)), none3,
     )  # fmt: skip
     return Morphology(
         document.name,

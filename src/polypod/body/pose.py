@@ -5,66 +5,37 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.beat import heave_ahead
 from polypod.body.hull import least_height
 from polypod.body.push import moved_by_push
 from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
-from polypod.body.support import FeetPlane
+from polypod.body.support import FeetPlane, body_rotation
 from polypod.compute import kernel
 from polypod.controller.rest import rest_offset
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface
-from polypod.gait.tempo import GRAVITY
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat, load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3
 
-# P1's sinusoid is never larger than this, hip heights.
-LARGEST_BOB = 0.02
 # How far the body sinks, preferred heights: for legs that lag, which looks worse than waiting for
 # them; and for legs that else find no place.
 SHALLOW = 0.15
 DEEP = 0.35
+# Legs that were too short for the preferred height keep the body down for so many cycles, it rises
+# again within about so many, and this far down at most, preferred heights.
+STAY_DOWN = 1.2
+RISE = 3.0
+STEADY_DEPTH = 0.06
 # What `follow` lags behind a steady climb by, shares of its time.
 LAG = 0.75
 # So far ahead legs are looked at that will stretch, shares of half a cycle, and how often. A foot
-# is taken to stand so many cycles longer than its disk says: it may find no place at once.
+# is taken to stand longer than its disk says by a share of that: it may find no place at once.
 SOON = 0.6
 SOON_SAMPLES = 2
 LATE = 0.1
-
-
-@kernel
-def bob(c: int, state: Any, tables: Any, settings: Any) -> float:
-    """Return P1's sinusoidal movement of the body, metres (P1 3.2).
-
-    Each foot pulls the body along a cosine that is lowest at its mid-stance, once a cycle; its
-    size is what a ballistic hop between two beats would be at duty factor one half (0.0085 g T^2
-    for two beats a cycle, BIOMECHANICS 3). Many feet out of step cancel, as in life.
-    """
-    rate = state.cycle_rate[c]
-    if rate <= 0.0:
-        return 0.0
-    count = state.swinging.shape[1]
-    first_cosine = 0.0
-    first_sine = 0.0
-    second_cosine = 0.0
-    second_sine = 0.0
-    for k in range(count):
-        middle = state.swing_start[c, k] + 0.5 * (1.0 + state.swing_extent[c, k])
-        angle = 2.0 * math.pi * (state.needle[c] - middle)
-        first_cosine += math.cos(angle) / count
-        first_sine += math.sin(angle) / count
-        second_cosine += math.cos(2.0 * angle) / count
-        second_sine += math.sin(2.0 * angle) / count
-    beat = GRAVITY / (rate * rate)
-    most = LARGEST_BOB * tables.hip_height
-    one = min(most, 0.5 * 0.0340 * beat)
-    two = min(most, 0.5 * 0.0085 * beat)
-    slow = min(1.0, abs(state.speed[c]) / (0.1 * tables.leg_length / tables.pendulum_time))
-    height: float = -settings.bob * slow * (one * first_cosine + two * second_cosine)
-    return height
 
 
 @kernel
@@ -141,10 +112,11 @@ def highest_soon(
             x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner, pose.detour,
             pose.pace, pose.aside,
         )  # fmt: skip
-        rise = rise_along(pose, x, z, plane)
+        rise = rise_along(pose, x, z, plane) + heave_ahead(c, 0.5 * share, state)
         for k in range(state.swinging.shape[1]):
             until = wrap_phase(state.swing_start[c, k] - state.needle[c])
-            if state.swinging[c, k] or until < 0.5 * share - LATE:
+            until += LATE * (1.0 - state.swing_extent[c, k])
+            if state.swinging[c, k] or until < 0.5 * share:
                 continue
             place = load_vec3(state.foot[c, k])
             foot_turn = load_quat(state.foot_rotation[c, k])
@@ -164,7 +136,7 @@ def highest_ahead(
     the body as predicted: at the edge of a step down the body has sunk when its feet get there.
     """
     cycle = 1.0 / state.cycle_rate[c]
-    rise = rise_along(pose, there.x, there.z, plane)
+    rise = rise_along(pose, there.x, there.z, plane) + heave_ahead(c, 0.5, state)
     course = there.heading - there.aside.heading + command.travel[c]
     most = math.inf
     for k in range(state.swinging.shape[1]):
@@ -205,6 +177,22 @@ def cycle_seconds(c: int, state: Any, tables: Any) -> float:
 
 
 @kernel
+def keep_down(c: int, cycles: float, most: float, state: Any, command: Any) -> None:
+    """Note how far below its preferred height, at most, a body stays for the sake of its legs.
+
+    A leg is at its end once in a stance. Who rose in between would bob by the reach of its legs,
+    against its gait. What is deeper than a steady walk needs passes as quickly as it came.
+    """
+    state.room[c, 1] += cycles
+    needed = max(most, -STEADY_DEPTH * command.body_height[c])
+    if needed <= state.room[c, 0]:
+        state.room[c, 0] = needed
+        state.room[c, 1] = 0.0
+    elif state.room[c, 1] > STAY_DOWN:
+        state.room[c, 0] *= math.exp(-cycles / RISE)
+
+
+@kernel
 def wished_height(
     c: int, dt: float, pose: PlanPose, plane: FeetPlane, turn: Quat,
     state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any,
@@ -213,24 +201,28 @@ def wished_height(
 
     The preferred height above the feet's plane; at least what the hulls under the trunk ask; at
     most what the legs comfortably reach. The difference to the preferred height is smoothed, so
-    that it comes and goes with continuous acceleration.
+    that it comes and goes with continuous acceleration. The gait's own heave comes on top of it,
+    and leaves its room where legs are at their end.
     """
-    seconds = settings.height_smoothing * cycle_seconds(c, state, tables)
+    cycle = cycle_seconds(c, state, tables)
+    seconds = settings.height_smoothing * cycle
     base = plane.height + command.body_height[c]
     base -= rise_along(pose, state.position[c, 0], state.position[c, 2], plane)
     ahead = abs(state.speed[c]) * seconds
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)
-    extra = max(0.0, least - base)
-    extra = min(extra, highest(c, base, pose, turn, state, command, tables))
+    most = highest(c, base + state.heave[c], pose, turn, state, command, tables)
     if state.cycle_rate[c] > 0.0:
+        level = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
         there = predict(pose, 0.5 / state.cycle_rate[c], c, state, command, tables, settings)
-        soon = highest_soon(c, base, pose, there, turn, plane, state, command, tables)
+        soon = highest_soon(c, base, pose, there, level, plane, state, command, tables)
         landing = highest_ahead(
-            c, base, pose, there, turn, plane, state, command, tables, settings, env
+            c, base, pose, there, level, plane, state, command, tables, settings, env
         )
-        extra = min(extra, soon, landing)
+        most = min(most, soon, landing)
+    keep_down(c, dt / cycle, most, state, command)
+    extra = min(max(state.room[c, 0], least - base), most)
     # On a steady climb the filter would lag by three of its time constants.
     share = settings.tilt_share * tables.tilt_scale
     slope = state.tilt[c, 0, 0] / share if share > 0.0 else plane.slope_forward
     lead = LAG * seconds * slope * state.speed[c] * math.cos(command.travel[c])
-    return follow(state.lift[c], base + extra + lead, seconds, dt) + bob(c, state, tables, settings)
+    return follow(state.lift[c], base + extra + lead, seconds, dt) + state.heave[c]

@@ -66,7 +66,8 @@ def move_body(
     back_x, back_z = way_back(c, state, tables, settings)
     if state.caught[c] > 0:
         state.pace[c] = 0.0
-    pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
+    here = plan_pose(c, state)
+    pose = steer(here, c, state, command, tables, settings, dt)
     shift_x, shift_z = feedback(c, state, tables, settings)
     shift_x += back_x
     shift_z += back_z
@@ -85,12 +86,12 @@ def move_body(
     if near > 0:
         free_x, free_z, apart = apart_from(c, near, x, z, heading, state, scratch)
         if not apart:
-            free_x = state.position[c, 0]
-            free_z = state.position[c, 2]
+            free_x = here.x
+            free_z = here.z
             heading = state.heading[c]
             turn_rate = 0.0
-        asked = math.hypot(x - state.position[c, 0], z - state.position[c, 2])
-        left = math.hypot(free_x - state.position[c, 0], free_z - state.position[c, 2])
+        asked = math.hypot(x - here.x, z - here.z)
+        left = math.hypot(free_x - here.x, free_z - here.z)
         speed *= min(left / max(asked, 1e-12), 1.0)
         was = load_deflection(c, state)
         turned = 1.0 if apart else 0.0

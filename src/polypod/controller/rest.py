@@ -35,8 +35,8 @@ def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, setting
 
 
 @kernel
-def body_height_at(c: int, x: float, z: float, state: Any) -> float:
-    """Return the height that the body would have elsewhere, carried along the feet's plane."""
+def rise_to(c: int, x: float, z: float, state: Any) -> float:
+    """Return by how much the feet's plane rises from under the body to a place, m."""
     dx = x - state.position[c, 0]
     dz = z - state.position[c, 2]
     sine = math.sin(state.heading[c])
@@ -44,13 +44,24 @@ def body_height_at(c: int, x: float, z: float, state: Any) -> float:
     rise: float = state.slope[c, 0] * (dx * sine + dz * cosine) + state.slope[c, 1] * (
         dx * cosine - dz * sine
     )
-    return state.position[c, 1] + rise
+    return rise
+
+
+@kernel
+def body_height_at(c: int, x: float, z: float, state: Any) -> float:
+    """Return the height that the body would have elsewhere, carried along the feet's plane.
+
+    Without its present heave, which will be another by then.
+    """
+    height: float = state.position[c, 1] - state.heave[c] + rise_to(c, x, z, state)
+    return height
 
 
 @kernel
 def level_height(c: int, x: float, z: float, state: Any) -> float:
     """Return the height of the feet's plane at a place, world."""
-    return body_height_at(c, x, z, state) - state.position[c, 1] + state.plane_height[c]
+    height: float = state.plane_height[c] + rise_to(c, x, z, state)
+    return height
 
 
 @kernel

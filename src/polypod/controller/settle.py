@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from polypod.body.motion import trunk_rotation
 from polypod.body.reach import (
     EARLY,
     EARLY_PULL,
@@ -13,10 +14,9 @@ from polypod.body.reach import (
     foot_shift,
     pitched,
 )
-from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
-from polypod.controller.steering import PlanPose, wrapped
+from polypod.controller.steering import PlanPose, sideways, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.crowd.avoid import apart_from, list_neighbours
 from polypod.environment.movers import clear_of_movers, depth_in_mover
@@ -191,26 +191,26 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
 
 @kernel
 def settle_body(
-    c: int, dt: float, pose: PlanPose, height: float, state: Any, command: Any, tables: Any,
-    env: Any, scratch: Any,
+    c: int, dt: float, pose: PlanPose, height: float, sway: float, state: Any, command: Any,
+    tables: Any, env: Any, scratch: Any,
 ) -> None:  # fmt: skip
     """Move the body as far toward its wished pose as its legs allow, and the swinging feet along.
 
     The body first moves least so that all soles are within reach. Where that is not enough, shares
     of the frame's advance are tried down to none: the pose before was within reach of every foot,
-    so a pose that keeps all soles always exists.
+    so a pose that keeps all soles always exists. `sway` is how far left of that pose it shall be.
     """
     before = load_vec3(state.position[c])
     turn_before = load_quat(state.rotation[c])
-    turn = body_rotation(pose.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    turn = trunk_rotation(c, pose.heading, state)
     # A body that was held back does not jump to where it would be by now.
     pendulum = tables.pendulum_time
-    most = FASTEST_RISE * tables.leg_length / pendulum * dt
+    most = FASTEST_RISE * tables.leg_length / pendulum * dt + abs(state.heave_step[c])
     asked = height
     height = min(before.y + most, max(before.y - most, height))
     angle = angle_of(turn * conjugate(turn_before))
     turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
-    wished = Vec3(pose.x, height, pose.z)
+    wished = sideways(Vec3(pose.x, height, pose.z), pose.heading, sway)
     wish_feet(c, dt, state, command, tables, env, scratch)
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
     heading_before = state.heading[c]
@@ -237,6 +237,7 @@ def settle_body(
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
             state.heading[c] = wrapped(heading)
+            state.sway[c] += share * (sway - state.sway[c])
             # What smooths the height goes on from where the body is, or it would snap back.
             if abs(position.y - asked) > TOLERANCE * tables.leg_length:
                 state.lift[c, 0] += position.y - asked

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from polypod.body.push import Deflection, hold_back, load_deflection, recover, store_deflection
 from polypod.compute import kernel
-from polypod.math.vec3 import Vec3
+from polypod.math.vec3 import Vec3, load_vec3
 from polypod.routes.aim import next_aim, way_left
 
 PREDICTION_STEPS = 8
@@ -139,11 +139,18 @@ def steer(
 
 
 @kernel
+def sideways(place: Vec3, heading: float, left: float) -> Vec3:
+    """Return a place so many metres to the left of who faces `heading`."""
+    return place + Vec3(math.cos(heading), 0.0, -math.sin(heading)) * left
+
+
+@kernel
 def plan_pose(c: int, state: Any) -> PlanPose:
-    """Return the present pose of a creature on the plane."""
+    """Return the present pose of a creature on the plane; its sway is left out."""
+    here = sideways(load_vec3(state.position[c]), state.heading[c], -state.sway[c])
     return PlanPose(
-        state.position[c, 0],
-        state.position[c, 2],
+        here.x,
+        here.z,
         state.heading[c],
         state.turn_rate[c],
         state.speed[c],

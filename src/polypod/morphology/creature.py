@@ -15,6 +15,7 @@ half_size = [0.2, 0.2, 0.5]      # of the trunk's box
 
 [foot."Foot.L"]                  # by the foot's name as in leg
 half_size = [0.02, 0.05]         # along x and z, m
+weight = 1.5                     # how much it carries where the others carry 1
 
 [limit."Knee.L"]                 # by the joint's name, radians
 bend = [-0.3, 2.0]               # about the rest bend
@@ -40,7 +41,7 @@ from polypod.errors import RigError, choices
 
 KEYS = ("rig", "leg", "spine", "forward", "height", "body_height", "body", "foot", "limit")
 BODY_KEYS = ("centre", "thickness", "half_size")
-FOOT_KEYS = ("half_size",)
+FOOT_KEYS = ("half_size", "weight")
 LIMIT_KEYS = ("bend", "flexion", "sideways", "twist")
 
 
@@ -59,6 +60,7 @@ class Creature:
     thickness: float | None = None
     half_size: tuple[float, ...] | None = None
     foot_half_size: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    foot_weight: Mapping[str, float] = field(default_factory=dict)
     limit: Mapping[str, Mapping[str, tuple[float, ...]]] = field(default_factory=dict)
 
 
@@ -99,6 +101,11 @@ def read_creature(path: Path) -> Creature:
             name: size
             for name, foot in feet.items()
             if (size := foot.numbers("half_size", 2, above=0.0)) is not None
+        },
+        foot_weight={
+            name: weight
+            for name, foot in feet.items()
+            if (weight := foot.number("weight", above=0.0)) is not None
         },
         limit={name: _limits(entry) for name, entry in limits.items()},
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from polypod.morphology.girdles import find_girdles
 from polypod.morphology.roll import FLAT, HEEL_FIRST
 from polypod.morphology.types import Morphology
 
@@ -16,7 +17,7 @@ def describe(morphology: Morphology) -> str:
     Sizes are in metres, angles in degrees.
     """
     parts = [_size(morphology), _legs(morphology), _limits(morphology), _spine(morphology)]
-    parts += [_joints(morphology), _guesses(morphology)]
+    parts += [_girdles(morphology), _joints(morphology), _guesses(morphology)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -100,6 +101,19 @@ def _spine(morphology: Morphology) -> str:
     if not morphology.spine:
         return "spine: none, the trunk moves as one piece; --spine J,J,... names one"
     return "spine: " + " > ".join(joint_label(morphology, row) for row in morphology.spine)
+
+
+def _girdles(morphology: Morphology) -> str:
+    girdles = find_girdles(morphology.legs)
+    if len(girdles.place) == 1:
+        return "girdles: one, all legs hang on it"
+    said = (
+        f"{count} legs at {place:.3g} m with {weight:.0%} of the weight"
+        for count, place, weight in zip(
+            np.bincount(girdles.of_leg), girdles.place, girdles.weight, strict=True
+        )
+    )
+    return f"girdles, forward of the body centre: {'; '.join(said)}"
 
 
 def _joints(morphology: Morphology) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -44,6 +44,7 @@ def load_rig(
     forward: str | None = None,
     height: float | None = None,
     body_height: float | None = None,
+    weights: Mapping[str, float] | None = None,
 ) -> Morphology:
     """Read a rig and work out how its creature is built.
 
@@ -57,6 +58,8 @@ def load_rig(
             guessed.
         height: m, from the ground to the top of the skin at rest; None: file units are metres.
         body_height: m, preferred height of the body centre above the soles; None: from the rest.
+        weights: by a foot's name or #index, how much of the body it carries where others carry 1;
+            it counts for the body's vertical motion.
 
     Returns:
         The morphology, in metres, in the body frame.
@@ -65,7 +68,7 @@ def load_rig(
         RigError: the file cannot be read, or its legs cannot walk.
         SettingError: an argument is out of its range.
     """
-    creature = _ask(rig, legs, spine, forward, height, body_height)
+    creature = _ask(rig, legs, spine, forward, height, body_height, weights)
     document, creature = _open(creature)
     file_skeleton = read_skeleton(document)
     turn, _, facing_guess = turn_to_face(file_skeleton, creature.forward)
@@ -92,6 +95,7 @@ def _ask(
     forward: str | None,
     height: float | None,
     body_height: float | None,
+    weights: Mapping[str, float] | None,
 ) -> Creature:
     """Return what is asked for: the creature file's words with the arguments over them."""
     path = Path(rig)
@@ -104,8 +108,12 @@ def _ask(
             )
     if isinstance(legs, str) or isinstance(spine, str):
         raise SettingError('legs and spine: must be lists of texts, as in ["HIP:FOOT"]')
+    for name, weight in ({} if weights is None else weights).items():
+        if not (isinstance(weight, int | float) and 0.0 < weight < math.inf):
+            raise SettingError(f"weights: {name!r}: must be a number above 0, not {weight!r}")
     return replace(
         creature,
+        foot_weight=creature.foot_weight if weights is None else dict(weights),
         legs=creature.legs if legs is None else tuple(legs),
         spine=creature.spine if spine is None else tuple(spine),
         forward=creature.forward if forward is None else forward,

@@ -1,4 +1,4 @@
-"""What a creature file says over what was derived: limits and foot shapes."""
+"""What a creature file says over what was derived: limits, foot shapes and weights."""
 
 from __future__ import annotations
 
@@ -16,24 +16,27 @@ HIP_KEYS = ("flexion", "sideways", "twist")
 
 
 def override_feet(morphology: Morphology, skeleton: Skeleton, creature: Creature) -> Morphology:
-    """Return the morphology with the foot shapes that the creature file gives.
+    """Return the morphology with the foot shapes and weights that the creature file gives.
 
     Raises:
         RigError: it names no foot.
     """
-    if not creature.foot_half_size:
-        return morphology
     half_size = morphology.legs.foot_half_size.copy()
     for name, size in creature.foot_half_size.items():
-        node = find_node(skeleton, name, f'{creature.file}: foot."{name}"')
-        label = skeleton.label(node)
-        if label not in morphology.foot_name:
-            raise RigError(
-                f'{creature.file}: foot."{name}": is no foot; feet are '
-                f"{choices(morphology.foot_name)}"
-            )
-        half_size[morphology.foot_name.index(label)] = size
-    return replace(morphology, legs=morphology.legs._replace(foot_half_size=half_size))
+        half_size[_row_of_foot(name, morphology, skeleton, creature)] = size
+    weight = np.ones(len(morphology.foot_name))
+    for name, share in creature.foot_weight.items():
+        weight[_row_of_foot(name, morphology, skeleton, creature)] = share
+    legs = morphology.legs._replace(foot_half_size=half_size, weight=weight / weight.sum())
+    return replace(morphology, legs=legs)
+
+
+def _row_of_foot(name: str, morphology: Morphology, skeleton: Skeleton, creature: Creature) -> int:
+    place = f'{creature.file}: foot."{name}"'
+    label = skeleton.label(find_node(skeleton, name, place))
+    if label not in morphology.foot_name:
+        raise RigError(f"{place}: is no foot; feet are {choices(morphology.foot_name)}")
+    return morphology.foot_name.index(label)
 
 
 def override_limits(morphology: Morphology, skeleton: Skeleton, creature: Creature) -> Morphology:

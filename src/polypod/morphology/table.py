@@ -108,6 +108,7 @@ def leg_table(
         roll_pivot=pivot,
         toe_joint=np.array([row_of.get(roll.toe_joint, -1) for roll in rolls], np.int64),
         section_radius=radius,
+        weight=np.full(count, 1.0 / count),
         side=layout.side,
         row=layout.row,
         upright=stand_upright(skeleton, limbs, middle_stance),

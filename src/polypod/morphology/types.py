@@ -47,6 +47,7 @@ class LegTable(NamedTuple):
     )
     section_radius: FloatArray  # [K, M + 1] m, half the thickness from each point to the next, the
     # last of an oriented foot from ankle to sole; 0 beyond
+    weight: FloatArray  # [K] share of the body's weight that the leg carries, sums to 1
     side: IntArray  # [K] +1 left, -1 right, 0 in the middle
     row: IntArray  # [K] 0 for the hindmost legs, counted forward
     upright: BoolArray  # [K] the leg stands below its hip; False: it sprawls

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from polypod.report.arrays import FloatArray, rotate_all
+from polypod.report.arrays import FloatArray, rotate_all, runs_of
 from polypod.report.ground import Ground
 from polypod.report.record import Recording
 from polypod.report.strides import mean_stride_s
@@ -15,6 +15,8 @@ BELLY_PLACES = 5
 BELLY_SHARE = 0.7
 # Motion above this many times the stride's frequency is tremor, not gait (row 10).
 TREMOR_STRIDES = 6.0
+# Less than this, leg lengths, nobody sees.
+STILL = 1e-3
 
 
 def way_figures(recording: Recording, commanded_distance_m: float | None) -> dict[str, object]:
@@ -74,11 +76,21 @@ def belly_clearance(recording: Recording, ground: Ground) -> FloatArray:
 
 
 def _bounce_figures(recording: Recording) -> dict[str, object]:
-    """Return excursion, implied force and tremor of the body's height."""
+    """Return excursion, phase, implied force and tremor of the body's height.
+
+    `body_mid_stance` is its height over the stride's mean at the middle of the feet's stances, half
+    excursions: -1 where it is lowest at every foot's mid-stance, 1 where it is highest.
+    """
     height, time = recording.body_position[:, 1], recording.time
     stride_s = mean_stride_s(recording)
     nothing = dict.fromkeys(
-        ("body_excursion_m", "body_force_least_g", "body_force_mean_g", "body_tremor_share")
+        (
+            "body_excursion_m",
+            "body_mid_stance",
+            "body_force_least_g",
+            "body_force_mean_g",
+            "body_tremor_share",
+        )
     )
     if stride_s is None or len(time) < 8:
         return dict(nothing)
@@ -96,14 +108,32 @@ def _bounce_figures(recording: Recording) -> dict[str, object]:
     bounce = height[first : first + len(trend)] - trend
     windows = np.lib.stride_tricks.sliding_window_view(bounce, frames)
     figures["body_excursion_m"] = float(np.median(np.ptp(windows, axis=1)))
+    figures["body_mid_stance"] = _at_mid_stance(recording, bounce, first)
     energy = np.abs(np.fft.rfft(bounce * np.hanning(len(bounce)))) ** 2
     frequency = np.fft.rfftfreq(len(bounce), 1.0 / fps)
     total = float(energy[1:].sum())
     tremor = float(energy[frequency > TREMOR_STRIDES / stride_s].sum())
-    # A body that does not bounce at all has no tremor either: its numbers are rounding.
-    still = float(np.ptp(bounce)) < 1e-6 * float(recording.morphology.legs.length.max())
+    # A body that hardly bounces has no tremor either: in a walk whose feet cancel, what is left of
+    # their beats are the last ones, a thousandth of a leg high and not to be seen.
+    still = float(np.ptp(bounce)) < STILL * float(recording.morphology.legs.length.max())
     figures["body_tremor_share"] = 0.0 if still else tremor / total
     return figures
+
+
+def _at_mid_stance(recording: Recording, bounce: FloatArray, first: int) -> float | None:
+    """Return the mean of a bounce at mid-stances, half excursions; its first frame is `first`."""
+    places = np.arange(len(bounce)) + first
+    middles = [
+        0.5 * (start + end - 1)
+        for foot in range(recording.foot_stance.shape[1])
+        # The first and the last may be cut short.
+        for start, end in runs_of(recording.foot_stance[:, foot])[1:-1]
+    ]
+    inside = [middle for middle in middles if places[0] <= middle <= places[-1]]
+    size = 0.5 * float(np.ptp(bounce))
+    if not inside or size <= 0.0:
+        return None
+    return float(np.interp(inside, places, bounce).mean()) / size
 
 
 def _tilt_figures(recording: Recording) -> dict[str, object]:

@@ -1,0 +1,138 @@
+"""A gait's steady motion in closed form: how far it would carry the body, and what legs allow.
+
+Heave, nod, roll and sway as sums of harmonics of the feet's forces, without a sample of any orbit:
+they are asked for in every step.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from polypod.body.particles import HARMONICS, cycle_shape, force_harmonic
+from polypod.compute import kernel
+from polypod.gait.tempo import GRAVITY
+
+# A foot's own particle swings at most so many times as far as a stiff leg would lift the body. In
+# steady gait the feet's particles cancel; on the way to another gait they do not quite.
+ALONE = 8.0
+# Girdles whose places vary by less than this, leg lengths squared, are one.
+LEAST_SPREAD = 1e-4
+
+
+class Beat(NamedTuple):
+    """How far the feet's steady orbits carry the body at full gravity, peak to peak."""
+
+    heave: float  # m
+    alone: float  # m, of the foot that moves most
+    nod: float  # rad, of the fit through the girdles
+    roll: float  # rad, left against right
+    sway_cosine: float  # m: sway at needle phase 0
+    sway_sine: float  # m: and a quarter of a cycle later
+
+
+@kernel
+def measure_beat(c: int, vault: float, state: Any, tables: Any) -> Beat:
+    """Return the closed-form motion of the gait on its way, and keep its heave's harmonics.
+
+    The sway is an inverted pendulum's over the feet's centre of pressure, so it is less the quicker
+    the cycle.
+    """
+    legs = tables.legs
+    girdles = tables.girdles
+    period = state.beat_period[c] if state.beat_period[c] > 0.0 else 1.0 / state.cycle_rate[c]
+    width = 0.0
+    middle = 0.0
+    spread = 0.0
+    for k in range(legs.length.shape[0]):
+        z = girdles.place[girdles.of_leg[k]]
+        middle += legs.weight[k] * z
+        spread += legs.weight[k] * z * z
+        width += legs.weight[k] * abs(legs.sole_stance[k, 0])
+    spread -= middle * middle
+    nods = spread > LEAST_SPREAD * tables.leg_length * tables.leg_length
+    heave = 0.0
+    nod = 0.0
+    roll = 0.0
+    alone = 0.0
+    sway_cosine = 0.0
+    sway_sine = 0.0
+    for n in range(1, HARMONICS + 1):
+        turned = period / (2.0 * math.pi * n)
+        heave_cosine = 0.0
+        heave_sine = 0.0
+        nod_cosine = 0.0
+        nod_sine = 0.0
+        roll_cosine = 0.0
+        roll_sine = 0.0
+        for k in range(legs.length.shape[0]):
+            duty = 1.0 - state.goal_extent[c, k]
+            harmonic = force_harmonic(cycle_shape(duty, vault), n)
+            angle = 2.0 * math.pi * n * (state.goal_start[c, k] - 0.5 * duty)
+            cosine = math.cos(angle)
+            sine = math.sin(angle)
+            size = -legs.weight[k] * GRAVITY * turned * turned * harmonic
+            heave_cosine += size * cosine
+            heave_sine += size * sine
+            lever = girdles.place[girdles.of_leg[k]] - middle
+            nod_cosine += size * lever * cosine
+            nod_sine += size * lever * sine
+            roll_cosine += size * legs.side[k] * cosine
+            roll_sine += size * legs.side[k] * sine
+            if n == 1:
+                alone = max(alone, 2.0 * abs(size / legs.weight[k]))
+                across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
+                sway_cosine += legs.weight[k] * across * harmonic * cosine
+                sway_sine += legs.weight[k] * across * harmonic * sine
+        state.beat[c, n - 1, 0] = heave_cosine
+        state.beat[c, n - 1, 1] = heave_sine
+        heave += heave_cosine * heave_cosine + heave_sine * heave_sine
+        nod += nod_cosine * nod_cosine + nod_sine * nod_sine
+        roll += roll_cosine * roll_cosine + roll_sine * roll_sine
+    quick = 2.0 * math.pi / period
+    sway = 1.0 / (1.0 + quick * quick * tables.hip_height / GRAVITY)
+    return Beat(
+        2.0 * math.sqrt(heave),
+        alone,
+        2.0 * math.sqrt(nod) / spread if nods else 0.0,
+        2.0 * math.sqrt(roll) / max(width, 0.02 * tables.leg_length),
+        sway * sway_cosine,
+        sway * sway_sine,
+    )
+
+
+@kernel
+def gravity_share(c: int, beat: Beat, state: Any, tables: Any) -> float:
+    """Return the share of gravity at which the gait's bounce keeps to what legs do.
+
+    Ballistic bounce grows with the period squared, and slow walkers' periods are long: a body that
+    walks slowly rises by no more than a stiff leg lifts it in a step, s^2 / (8 h), as an inverted
+    pendulum does over what it travels until the next foot takes over. The less is bounced the more
+    is borne all the time: the force's mean stays g and it never pulls.
+    """
+    duty = min(state.duty[c], 0.5)
+    travel = duty * abs(state.speed[c]) * state.beat_period[c]
+    rise = 0.125 * travel * travel / tables.hip_height
+    tiny = 1e-9 * tables.hip_height
+    return min(1.0, rise / max(beat.heave, tiny), ALONE * rise / max(beat.alone, tiny))
+
+
+@kernel
+def heave_ahead(c: int, cycles: float, state: Any) -> float:
+    """Return the heave, m, that the steady gait will have so many cycles ahead."""
+    heave = 0.0
+    for n in range(1, HARMONICS + 1):
+        angle = 2.0 * math.pi * n * (state.needle[c] + cycles)
+        heave += state.beat[c, n - 1, 0] * math.cos(angle)
+        heave += state.beat[c, n - 1, 1] * math.sin(angle)
+    return float(state.gravity_share[c]) * heave
+
+
+@kernel
+def bounded(most: float, size: float) -> float:
+    """Return the share of a turn, `size` from peak to peak, that stays within `most` either way.
+
+    Taken back gently, so that of two gaits the wilder one still moves more.
+    """
+    excess = 0.5 * size / most
+    return 1.0 / math.sqrt(1.0 + excess * excess)
