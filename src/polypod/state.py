@@ -129,7 +129,8 @@ class HerdState(NamedTuple):
     particle_offset: FloatArray  # [C, K] m: each foot's particle over the preferred height
     particle_rise: FloatArray  # [C, K] m/s: how fast it rises; what pushes the body adds to it
     girdle_offset: FloatArray  # [C, G] m: mean of the particles of a girdle's feet
-    beat: FloatArray  # [C, HARMONICS, 2] m: heave at full gravity, cosines and sines of the needle
+    beat: FloatArray  # [C, HARMONICS, 6] at full gravity, of the needle's angle, cosine and sine
+    # each: heave (m), and what the feet lift by times their girdle's place (m^2) and their side (m)
     gravity_share: FloatArray  # [C] of gravity that the gait's bounce takes; the rest is borne
     beat_period: FloatArray  # [C] s a cycle, smoothed, by which the body bounces
     vault: FloatArray  # [C] Alexander's q of the feet's force
@@ -296,7 +297,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
         "tilt": (c, 2, 3),
         "lift": (c, 3),
         "girdle_offset": (c, girdles),
-        "beat": (c, HARMONICS, 2),
+        "beat": (c, HARMONICS, 6),
         "nod_share": (c, 2),
         "nod": (c, 2),
         "room": (c, 2),

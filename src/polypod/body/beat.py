@@ -31,6 +31,21 @@ class Beat(NamedTuple):
     sway_sine: float  # m: and a quarter of a cycle later
 
 
+class Wave(NamedTuple):
+    """Cosine and sine of an angle."""
+
+    cosine: float
+    sine: float
+
+
+@kernel
+def turn_on(wave: Wave, by: Wave) -> Wave:
+    """Return cosine and sine of the sum of two angles."""
+    return Wave(
+        wave.cosine * by.cosine - wave.sine * by.sine, wave.sine * by.cosine + wave.cosine * by.sine
+    )
+
+
 @kernel
 def measure_beat(c: int, vault: float, state: Any, tables: Any) -> Beat:
     """Return the closed-form motion of the gait on its way, and keep its heave's harmonics.
@@ -51,44 +66,47 @@ def measure_beat(c: int, vault: float, state: Any, tables: Any) -> Beat:
         width += legs.weight[k] * abs(legs.sole_stance[k, 0])
     spread -= middle * middle
     nods = spread > LEAST_SPREAD * tables.leg_length * tables.leg_length
-    heave = 0.0
-    nod = 0.0
-    roll = 0.0
+    beat = state.beat[c]
+    for n in range(HARMONICS):
+        for column in range(6):
+            beat[n, column] = 0.0
     alone = 0.0
     sway_cosine = 0.0
     sway_sine = 0.0
-    for n in range(1, HARMONICS + 1):
-        turned = period / (2.0 * math.pi * n)
-        heave_cosine = 0.0
-        heave_sine = 0.0
-        nod_cosine = 0.0
-        nod_sine = 0.0
-        roll_cosine = 0.0
-        roll_sine = 0.0
-        for k in range(legs.length.shape[0]):
-            duty = 1.0 - state.goal_extent[c, k]
-            harmonic = force_harmonic(cycle_shape(duty, vault), n)
-            angle = 2.0 * math.pi * n * (state.goal_start[c, k] - 0.5 * duty)
-            cosine = math.cos(angle)
-            sine = math.sin(angle)
-            size = -legs.weight[k] * GRAVITY * turned * turned * harmonic
-            heave_cosine += size * cosine
-            heave_sine += size * sine
-            lever = girdles.place[girdles.of_leg[k]] - middle
-            nod_cosine += size * lever * cosine
-            nod_sine += size * lever * sine
-            roll_cosine += size * legs.side[k] * cosine
-            roll_sine += size * legs.side[k] * sine
+    for k in range(legs.length.shape[0]):
+        duty = 1.0 - state.goal_extent[c, k]
+        shape = cycle_shape(duty, vault)
+        middle_of_stance = 2.0 * math.pi * (state.goal_start[c, k] - 0.5 * duty)
+        first = Wave(math.cos(middle_of_stance), math.sin(middle_of_stance))
+        half = Wave(math.cos(math.pi * duty), math.sin(math.pi * duty))
+        turned = Wave(1.0, 0.0)
+        opened = Wave(1.0, 0.0)
+        lever = girdles.place[girdles.of_leg[k]] - middle
+        for n in range(1, HARMONICS + 1):
+            turned = turn_on(turned, first)
+            opened = turn_on(opened, half)
+            harmonic = force_harmonic(shape, n, opened.cosine)
+            slow = period / (2.0 * math.pi * n)
+            size = -legs.weight[k] * GRAVITY * slow * slow * harmonic
+            row = beat[n - 1]
+            row[0] += size * turned.cosine
+            row[1] += size * turned.sine
+            row[2] += size * lever * turned.cosine
+            row[3] += size * lever * turned.sine
+            row[4] += size * legs.side[k] * turned.cosine
+            row[5] += size * legs.side[k] * turned.sine
             if n == 1:
                 alone = max(alone, 2.0 * abs(size / legs.weight[k]))
-                across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
-                sway_cosine += legs.weight[k] * across * harmonic * cosine
-                sway_sine += legs.weight[k] * across * harmonic * sine
-        state.beat[c, n - 1, 0] = heave_cosine
-        state.beat[c, n - 1, 1] = heave_sine
-        heave += heave_cosine * heave_cosine + heave_sine * heave_sine
-        nod += nod_cosine * nod_cosine + nod_sine * nod_sine
-        roll += roll_cosine * roll_cosine + roll_sine * roll_sine
+                across = legs.weight[k] * (legs.sole_stance[k, 0] + state.spacing[c, k, 0])
+                sway_cosine += across * harmonic * turned.cosine
+                sway_sine += across * harmonic * turned.sine
+    heave = 0.0
+    nod = 0.0
+    roll = 0.0
+    for n in range(HARMONICS):
+        heave += beat[n, 0] ** 2 + beat[n, 1] ** 2
+        nod += beat[n, 2] ** 2 + beat[n, 3] ** 2
+        roll += beat[n, 4] ** 2 + beat[n, 5] ** 2
     quick = 2.0 * math.pi / period
     sway = 1.0 / (1.0 + quick * quick * tables.hip_height / GRAVITY)
     return Beat(
@@ -120,12 +138,17 @@ def gravity_share(c: int, beat: Beat, state: Any, tables: Any) -> float:
 @kernel
 def heave_ahead(c: int, cycles: float, state: Any) -> float:
     """Return the heave, m, that the steady gait will have so many cycles ahead."""
+    share = float(state.gravity_share[c])
+    if share == 0.0:
+        return 0.0
+    angle = 2.0 * math.pi * (state.needle[c] + cycles)
+    first = Wave(math.cos(angle), math.sin(angle))
+    turned = Wave(1.0, 0.0)
     heave = 0.0
-    for n in range(1, HARMONICS + 1):
-        angle = 2.0 * math.pi * n * (state.needle[c] + cycles)
-        heave += state.beat[c, n - 1, 0] * math.cos(angle)
-        heave += state.beat[c, n - 1, 1] * math.sin(angle)
-    return float(state.gravity_share[c]) * heave
+    for n in range(HARMONICS):
+        turned = turn_on(turned, first)
+        heave += state.beat[c, n, 0] * turned.cosine + state.beat[c, n, 1] * turned.sine
+    return share * heave
 
 
 @kernel

@@ -198,10 +198,12 @@ def settle_particle(particle: Particle, dt: float, pendulum_time: float) -> Part
 
 
 @kernel
-def force_harmonic(shape: Shape, n: int) -> float:
-    """Return the amplitude, in g, of the force's n-th harmonic about mid-stance."""
+def force_harmonic(shape: Shape, n: int, cosine: float) -> float:
+    """Return the amplitude, in g, of the force's n-th harmonic about mid-stance.
+
+    `cosine` is that of pi n times the duty factor, which callers have from the one before.
+    """
     angle = 2.0 * math.pi * n * shape.duty
-    cosine = math.cos(0.5 * angle)
     one = _beside_pole(angle, cosine, math.pi, 1.0)
     three = _beside_pole(angle, cosine, 3.0 * math.pi, -1.0)
     both = 2.0 * math.pi * (one + 3.0 * shape.vault * three)

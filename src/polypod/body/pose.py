@@ -29,6 +29,8 @@ DEEP = 0.35
 STAY_DOWN = 1.2
 RISE = 3.0
 STEADY_DEPTH = 0.06
+# Who stands rises within so many cycles.
+STANDING_RISE = 0.4
 # What `follow` lags behind a steady climb by, shares of its time.
 LAG = 0.75
 # So far ahead legs are looked at that will stretch, shares of half a cycle, and how often. A foot
@@ -188,6 +190,8 @@ def keep_down(c: int, cycles: float, most: float, state: Any, command: Any) -> N
     if needed <= state.room[c, 0]:
         state.room[c, 0] = needed
         state.room[c, 1] = 0.0
+    elif state.cycle_rate[c] <= 0.0:
+        state.room[c, 0] *= math.exp(-cycles / STANDING_RISE)
     elif state.room[c, 1] > STAY_DOWN:
         state.room[c, 0] *= math.exp(-cycles / RISE)
 
