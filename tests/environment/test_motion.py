@@ -153,9 +153,10 @@ def test_the_way_out_is_short_and_never_down(obstacle: Obstacle) -> None:
             continue
         inside += 1
         assert math.dist(free, point) >= depth - 1e-9
-        assert mover_depth(env.kernel_table, free, 0.0, -1) == pytest.approx(0.0, abs=1e-9)
+        # A little past the face, or it would be on top as well.
+        assert -1e-6 < mover_depth(env.kernel_table, free, 0.0, -1) < 1e-9
         assert free.y >= point.y - 0.5 * math.dist(free, point) - 1e-9
-        shortest += abs(math.dist(free, point) - depth) < 1e-9
+        shortest += abs(math.dist(free, point) - depth) < 1e-6
     assert inside > 20
     assert shortest > 0.4 * inside
 

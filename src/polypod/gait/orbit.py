@@ -26,12 +26,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from polypod.config import WALKING_VAULT as VAULT
 from polypod.errors import SettingError
 from polypod.gait.pattern import BoolArray, FloatArray, Gait
 
 GRAVITY = 9.81  # m/s^2
-# Alexander & Jayes' q of a walk that vaults over its legs.
-VAULT = 0.4
 # Beyond it a foot would pull at mid-stance.
 LARGEST_VAULT = 1.0
 # Samples of a cycle among which extremes are looked for before they are refined.
