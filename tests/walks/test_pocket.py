@@ -41,7 +41,7 @@ def test_a_pocket_in_the_way_is_left_and_passed() -> None:
     went_aside = 0.0
     post = np.array([[obstacle.position[0], 0.0, obstacle.position[2]] for obstacle in posts])
     radius = 0.05 * leg_length(morphology)
-    for _ in range(round(40.0 * FPS)):
+    for _ in range(round(70.0 * FPS)):
         before = state.foot[0].copy()
         world.step(1.0 / FPS)
         went_aside = max(went_aside, abs(float(state.shy[0])))
