@@ -21,7 +21,7 @@ CAUGHT_IN_AIR = 0.2
 CAUGHT_IN_THE_OPEN = 1.5
 LONGEST = 24.0
 # The body goes back by so many leg lengths a pendulum time, up to where the leg is at rest.
-SPEED = 0.25
+SPEED = 0.4
 # Then the way leads to the other side, by so many radians for each time, up to a limit; that
 # is forgotten within so many pendulum times.
 SHY = 0.6
@@ -45,8 +45,9 @@ def note_caught(c: int, dt: float, state: Any, tables: Any, env: Any) -> None:
         if landed or state.caught_clock[c] > LONGEST * tables.pendulum_time:
             state.caught[c] = 0
             state.caught_clock[c] = 0.0
-            away = -SHY * tables.legs.side[k]
-            state.shy[c] = min(max(state.shy[c] + away, -MOST_SHY), MOST_SHY)
+            shy = state.shy[c] - SHY * tables.legs.side[k]
+            # Caught again and again on the way past one side, it tries the other.
+            state.shy[c] = shy if abs(shy) <= MOST_SHY else -math.copysign(MOST_SHY, shy)
         return
     if is_thrown(load_deflection(c, state), tables):
         return  # its feet wait for the body to come to them
