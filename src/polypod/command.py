@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from polypod.config import WALKING_VAULT
 from polypod.errors import SettingError
 from polypod.gait.pattern import FloatArray, Gait
 from polypod.state import HerdCommand
@@ -163,7 +162,7 @@ class Command:
         self.arrays.gait_touchdown[creature] = gait.touchdown
         self.arrays.gait_share[creature] = (1.0 - gait.swing_extent) / gait.duty
         self.arrays.gait_lag[creature] = gait.lag_per_duty
-        self.arrays.gait_vault[creature] = WALKING_VAULT if gait.family == "walk" else 0.0
+        self.arrays.gait_vault[creature] = gait.vault
         self.arrays.gait_number[creature] += 1
         self.arrays.gait_duty[creature] = (gait.duty, gait.duty_low, gait.duty_high)
         if not math.isnan(gait.period):

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from polypod.allocation import make_command, make_state
 from polypod.body.blow import judge_place, land_blow, strike
 from polypod.body.hull import make_hull_scratch
 from polypod.body.push import recovery_rate
@@ -31,7 +32,7 @@ from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
-from polypod.state import HerdTables, JointTable, make_command, make_state
+from polypod.state import HerdTables, JointTable
 
 WAYPOINT_ROOM = 256
 # A trunk on two legs cannot follow the slope between its feet: it would nod at each step.

@@ -65,7 +65,7 @@ def store_deflection(c: int, aside: Deflection, state: Any, tables: Any) -> None
     size = math.hypot(aside.x, aside.z) + tables.leg_length * abs(aside.heading)
     rate = math.hypot(aside.rate_x, aside.rate_z) + tables.leg_length * abs(aside.rate_heading)
     if size + rate / tables.recovery <= ON_PATH * tables.leg_length:
-        aside = Deflection(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        aside = NO_DEFLECTION
     state.deflection[c, 0] = aside.x
     state.deflection[c, 1] = aside.z
     state.deflection[c, 2] = aside.heading

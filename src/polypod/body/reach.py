@@ -54,6 +54,16 @@ def foot_shift(
 
 
 @kernel
+def shift_as_it_is(
+    c: int, k: int, sole_world: Vec3, state: Any, tables: Any, position: Vec3, turn: Quat
+) -> Vec3:
+    """Return `foot_shift` of a foot that is turned and rolled as it is now, its sole at a place."""
+    foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+    bend = state.foot_bend[c, k, 0]
+    return foot_shift(k, tables, sole_world, foot_turn, bend, position, turn)
+
+
+@kernel
 def body_within_reach(
     c: int, state: Any, tables: Any, scratch: Any, position: Vec3, turn: Quat
 ) -> Vec3:

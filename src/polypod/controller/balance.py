@@ -10,7 +10,7 @@ import math
 from typing import Any
 
 from polypod.body.push import Deflection, hold_back, is_thrown, load_deflection
-from polypod.body.reach import foot_shift, pitched
+from polypod.body.reach import shift_as_it_is
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.lift import feet_needed
@@ -52,8 +52,7 @@ def room_aside(c: int, ahead_x: float, ahead_z: float, state: Any, tables: Any) 
             if state.swinging[c, k] or not fits:
                 continue
             sole = load_vec3(state.foot[c, k])
-            foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
-            shift = foot_shift(k, tables, sole, foot_turn, state.foot_bend[c, k, 0], there, turn)
+            shift = shift_as_it_is(c, k, sole, state, tables, there, turn)
             fits = length(shift) <= tolerance
         if fits and halving == 0:
             return float(way)
@@ -90,13 +89,12 @@ def overreach(
 ) -> float:  # fmt: skip
     """Return by how much, m, a standing leg will be too short or too long within some seconds."""
     sole = load_vec3(state.foot[c, k])
-    foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
     most = 0.0
     for i in range(1, MOMENTS + 1):
         then = predict(pose, horizon * i / MOMENTS, c, state, command, tables, settings)
         place = Vec3(then.x, body_height_at(c, then.x, then.z, state), then.z)
         turn = body_rotation(then.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-        shift = foot_shift(k, tables, sole, foot_turn, state.foot_bend[c, k, 0], place, turn)
+        shift = shift_as_it_is(c, k, sole, state, tables, place, turn)
         most = max(most, length(shift))
     return most
 

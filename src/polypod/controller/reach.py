@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.reach import foot_shift, pitched
+from polypod.body.reach import shift_as_it_is
 from polypod.compute import kernel
 from polypod.controller.rest import rest_offset
 from polypod.controller.roll import begin_roll
@@ -60,7 +60,5 @@ def reach_feet(c: int, dt: float, state: Any, command: Any, tables: Any) -> None
         step = (load_vec3(command.reach_place[c, k]) - foot) * share
         most = FASTEST_REACH * tables.legs.length[k] / tables.pendulum_time * dt
         foot = foot + step * (min(length(step), most) / max(length(step), 1e-12))
-        foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
-        bend = state.foot_bend[c, k, 0]
-        foot = foot + foot_shift(k, tables, foot, foot_turn, bend, position, turn)
+        foot = foot + shift_as_it_is(c, k, foot, state, tables, position, turn)
         store_vec3(state.foot[c, k], foot)

@@ -17,13 +17,13 @@ from polypod.controller.rest import rest_offset
 # once it has landed, or after so many leg pendulum times: then something else is in the way.
 CAUGHT = 0.5
 CAUGHT_IN_AIR = 0.2
+LONGEST = 24.0
 # Where nothing is forbidden feet hang on what the body will soon have left behind, but seldom long.
 CAUGHT_IN_THE_OPEN = 1.5
-LONGEST = 24.0
 # The body goes back by so many leg lengths a pendulum time, up to where the leg is at rest.
 SPEED = 0.4
-# Then the way leads to the other side, by so many radians for each time, up to a limit; that
-# is forgotten within so many pendulum times.
+# Then the way leads past the other side, by so many radians for each time, up to a limit, and then
+# past the first again. That is forgotten within so many pendulum times.
 SHY = 0.6
 MOST_SHY = 1.2
 FORGET = 30.0
@@ -36,15 +36,14 @@ def note_caught(c: int, dt: float, state: Any, tables: Any, env: Any) -> None:
     One that stands is so only by what is forbidden: if it waits before a trench, no way back helps.
     """
     count = state.swinging.shape[1]
-    state.caught_clock[c] += dt
     state.shy[c] *= math.exp(-dt / (FORGET * tables.pendulum_time))
     caught = int(state.caught[c])
     if caught > 0:
         k = caught - 1
+        state.caught_clock[c] += dt
         landed = not state.swinging[c, k] and state.waiting[c, k] == 0.0
         if landed or state.caught_clock[c] > LONGEST * tables.pendulum_time:
             state.caught[c] = 0
-            state.caught_clock[c] = 0.0
             shy = state.shy[c] - SHY * tables.legs.side[k]
             # Caught again and again on the way past one side, it tries the other.
             state.shy[c] = shy if abs(shy) <= MOST_SHY else -math.copysign(MOST_SHY, shy)

@@ -13,6 +13,7 @@ from polypod.body.reach import (
     body_within_reach,
     foot_shift,
     pitched,
+    shift_as_it_is,
 )
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
@@ -181,9 +182,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
             return False
         scratch.held[k] = True
         sole = load_vec3(state.foot[c, k])
-        foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
-        bend = state.foot_bend[c, k, 0]
-        shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+        shift = shift_as_it_is(c, k, sole, state, tables, position, turn)
         if length(shift) > 2.0 * tolerance:
             return False
     return True
@@ -266,9 +265,7 @@ def advance_swings(
                 # A body that is carried away by what it stands on takes its feet in the air along.
                 position = load_vec3(state.position[c])
                 turn = load_quat(state.rotation[c])
-                foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
-                bend = state.foot_bend[c, k, 0]
-                here = here + foot_shift(k, tables, here, foot_turn, bend, position, turn)
+                here = here + shift_as_it_is(c, k, here, state, tables, position, turn)
                 store_vec3(state.foot[c, k], here)
             continue
         state.waiting[c, k] = 0.0

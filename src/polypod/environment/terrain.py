@@ -19,7 +19,14 @@ from polypod.environment import generators, geotiff, heightmaps, surfaces, tile_
 from polypod.environment.heightmaps import MOST_SAMPLES
 from polypod.environment.lattice import BoolArray, FloatArray, IntArray, Lattice
 from polypod.environment.obstacles import LARGEST, Obstacle
-from polypod.environment.tiled import MEMORY, TILE, PlaceFunction, TiledTerrain, from_function
+from polypod.environment.tiled import (
+    MEMORY,
+    TILE,
+    PlaceFunction,
+    TiledTerrain,
+    from_function,
+    judge_origin,
+)
 from polypod.errors import SceneError
 
 
@@ -63,11 +70,7 @@ class Terrain(Lattice):
                 f"a terrain has cell = {self.cell:g}; "
                 f"it must be the metres between samples, from 1e-06 to {LARGEST:g}"
             )
-        if len(self.origin) != 2 or not all(abs(o) <= LARGEST for o in self.origin):
-            raise SceneError(
-                f"a terrain has origin = {list(self.origin)}; "
-                f"it must be x and z of the first sample, within {LARGEST:g} m"
-            )
+        judge_origin("a terrain", self.origin)
         heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
         if self.water is not None:

@@ -54,11 +54,7 @@ class TiledTerrain(Lattice):
                 f"{self.name} has tile = {self.tile!r}; it must be samples along a tile's side, "
                 f"a power of two from {SMALLEST_TILE} to {LARGEST_TILE}"
             )
-        if len(self.origin) != 2 or not all(abs(o) <= LARGEST for o in self.origin):
-            raise SceneError(
-                f"{self.name} has origin = {list(self.origin)}; "
-                f"it must be x and z of the first sample, within {LARGEST:g} m"
-            )
+        judge_origin(self.name, self.origin)
         if self.bounds[2] <= self.bounds[0] or self.bounds[3] <= self.bounds[1]:
             raise SceneError(f"{self.name} has a single row of samples; it needs two at least")
         if self.page_count < FEWEST_PAGES:
@@ -158,6 +154,15 @@ def from_function(
     terrain.samples_at(*corners)
     terrain.wet_at(*corners)
     return terrain
+
+
+def judge_origin(name: str, origin: Sequence[float]) -> None:
+    """Refuse what is no place of a terrain's first sample; raise SceneError."""
+    if len(origin) != 2 or not all(abs(o) <= LARGEST for o in origin):
+        raise SceneError(
+            f"{name} has origin = {list(origin)}; "
+            f"it must be x and z of the first sample, within {LARGEST:g} m"
+        )
 
 
 def _judge(name: str, key: str, value: float, least: float, most: float, meaning: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.push import Deflection, is_pushed
+from polypod.body.push import NO_DEFLECTION, is_pushed
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, plan_pose, predict
 from polypod.controller.swing import FASTEST_CATCH_UP
@@ -64,10 +64,9 @@ def quickest_period(
 
     Who is asked to walk quicker than that keeps its tempo.
     """
-    still = Deflection(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     alone = PlanPose(
         pose.x, pose.z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner,
-        pose.detour, pose.pace, still,
+        pose.detour, pose.pace, NO_DEFLECTION,
     )  # fmt: skip
     own = tempo(
         fastest_foot_speed(c, alone, state, command, tables), tables.hip_height, tables.leg_length,

@@ -26,7 +26,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from polypod.config import WALKING_VAULT as VAULT
 from polypod.errors import SettingError
 from polypod.gait.pattern import BoolArray, FloatArray, Gait
 
@@ -219,7 +218,7 @@ class Orbit:
 
 def vault_of(gait: Gait, upright: bool) -> float:
     """Return q: walks on legs that stand below their hips vault, everything else bounces."""
-    return VAULT if upright and gait.family == "walk" else 0.0
+    return gait.vault if upright else 0.0
 
 
 def orbit_of(
