@@ -18,6 +18,7 @@ from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
 from polypod.footprints.plan import PlanScratch, make_plan_scratch
 from polypod.footprints.settings import PlanSettings
+from polypod.gait.follow import PINNED, ladder_names, make_ladder
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
@@ -97,6 +98,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         hip_height=max(hip_height, 0.05 * leg_length),
         pendulum_time=math.sqrt(leg_length / GRAVITY),
         tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
+        ladder=make_ladder(legs),
         track=track * (1.0 if upright else SPRAWLING_TRACK),
         # Two feet do not tell the slope of the ground ahead, nor what is level on it.
         level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,
@@ -174,6 +176,17 @@ class Herd:
     def count(self) -> int:
         """How many creatures there are."""
         return int(self.state.heading.shape[0])
+
+    @cached_property
+    def ladder(self) -> tuple[str, ...]:
+        """Names of the gaits that follow speed, from slow to fast; `state.rung` counts them."""
+        return ladder_names(self.tables.legs)
+
+    @property
+    def gait_name(self) -> tuple[str, ...]:
+        """Name of the gait that each creature walks in, or is changing to."""
+        pairs = zip(self.state.rung, self.command.gait_name, strict=True)
+        return tuple(name if rung == PINNED else self.ladder[rung] for rung, name in pairs)
 
     @property
     def follows(self) -> bool:

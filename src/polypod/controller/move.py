@@ -7,6 +7,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.course import choose_course
+from polypod.controller.propulsion import propulsion
 from polypod.controller.steering import PlanPose, plan_pose, steer
 from polypod.crowd.avoid import FORESIGHT, apart_from, list_neighbours, note_yielding
 
@@ -59,7 +60,8 @@ def move_body(
         # It does not turn about for a way out either.
         state.detour[c] = 0.0
         state.pace[c] = 0.0
-    pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt)
+    driven = propulsion(c, state, scratch)
+    pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt, driven)
     x, z = feedback(c, state, tables, settings)
     x = pose.x + x * dt
     z = pose.z + z * dt

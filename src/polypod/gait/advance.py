@@ -7,9 +7,11 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, plan_pose, predict
+from polypod.gait.follow import duty_change, note_gait_speed, take_gait, wished_rung
 from polypod.gait.needle import minimum_feet_down, turn_needle
-from polypod.gait.tempo import tempo
+from polypod.gait.tempo import Tempo, tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
+from polypod.gait.variation import varied_period
 from polypod.math.intervals import wrap_phase
 
 # The duty factor follows speed within about so many cycles.
@@ -80,14 +82,57 @@ def neighbour_limit(c: int, state: Any, command: Any, tables: Any) -> float:
 
 
 @kernel
-def destination_disks(c: int, command: Any, duty: float, start_out: Any, extent_out: Any) -> None:
-    """Write the disks of the gait asked for at a mean duty factor, [K] each."""
+def destination_disks(c: int, state: Any, duty: float, start_out: Any, extent_out: Any) -> None:
+    """Write the disks of the gait that a creature walks in at a mean duty factor, [K] each."""
     for k in range(start_out.shape[0]):
-        foot_duty = command.gait_share[c, k] * duty
-        touchdown = command.gait_touchdown[c, k]
-        touchdown += command.gait_lag[c, k] * (duty - command.gait_duty[c, 0])
+        foot_duty = state.gait_share[c, k] * duty
+        touchdown = state.gait_touchdown[c, k]
+        touchdown += state.gait_lag[c, k] * (duty - state.gait_duty[c, 0])
         start_out[k] = wrap_phase(touchdown + foot_duty)
         extent_out[k] = 1.0 - foot_duty
+
+
+@kernel
+def asked_tempo(
+    c: int, now: PlanPose, state: Any, command: Any, tables: Any, settings: Any
+) -> Tempo:
+    """Return the tempo of the speed now or soon: a walk's first step is as quick as its second.
+
+    The gait is that of the state; what the user pins of it is kept, a duty within its range.
+    """
+    soon = predict(now, SOON * tables.pendulum_time, c, state, command, tables, settings)
+    speed = max(
+        fastest_foot_speed(c, now, state, tables), fastest_foot_speed(c, soon, state, tables)
+    )
+    low = state.gait_duty[c, 1]
+    high = state.gait_duty[c, 2]
+    if not math.isnan(command.duty[c]):
+        low = min(max(command.duty[c], low), high)
+        high = low
+    return tempo(
+        speed, tables.hip_height, tables.leg_length, tables.upright, low, high,
+        stance_travel_limit(c, state, command, tables), command.period[c],
+    )  # fmt: skip
+
+
+@kernel
+def begin_transition(
+    c: int, rung: int, duty: float, stood: bool, state: Any, command: Any, scratch: Any
+) -> None:
+    """Begin to change to the gait that was taken: its circle is turned to where it is nearest.
+
+    Of a creature that `stood` all feet change at once, if its gait follows its speed.
+    """
+    state.gait_number[c] = command.gait_number[c]
+    state.rung[c] = rung
+    at_once = stood and command.follows[c]
+    state.blend_left[c] = 0.0 if at_once else command.blend_cycles[c]
+    state.duty[c] = duty
+    destination_disks(c, state, duty, scratch.start, scratch.extent)
+    state.needle[c] = align_cycle(
+        state.needle[c], state.swing_start[c], state.goal_start[c], state.lift_phase[c],
+        scratch.start, scratch.extent,
+    )  # fmt: skip
 
 
 @kernel
@@ -98,17 +143,14 @@ def advance_gait(
     """Advance one creature's gait by `dt` seconds; return the needle's turn, cycles.
 
     `wishes_to_step` keeps the needle of a standing creature turning while a foot is off its place.
-    The tempo is that of the speed now or soon: the first step of a walk is as quick as the second.
     """
     now = plan_pose(c, state)
-    soon = predict(now, SOON * tables.pendulum_time, c, state, command, tables, settings)
-    speed = max(
-        fastest_foot_speed(c, now, state, tables), fastest_foot_speed(c, soon, state, tables)
-    )
-    aim = tempo(
-        speed, tables.hip_height, tables.leg_length, tables.upright, command.gait_duty[c, 1],
-        command.gait_duty[c, 2], stance_travel_limit(c, state, command, tables), command.period[c],
-    )  # fmt: skip
+    note_gait_speed(c, now.speed, dt * state.cycle_rate[c], state)
+    rung = wished_rung(c, state, command, tables)
+    changes = rung != state.rung[c] or state.gait_number[c] != command.gait_number[c]
+    if changes:
+        take_gait(c, rung, state, command, tables)
+    aim = asked_tempo(c, now, state, command, tables, settings)
     feet = state.swinging.shape[1]
     in_swing = 0
     for k in range(feet):
@@ -120,21 +162,19 @@ def advance_gait(
     period = aim.period
     if math.isnan(command.period[c]):
         period /= 1.0 + state.hurry[c]
+    if settings.stride_variation > 0.0:
+        period = varied_period(c, dt, period, state, settings)
+    stood = state.cycle_rate[c] <= 0.0
     state.cycle_rate[c] = 1.0 / period
     needle = turn_needle(state.needle[c], dt, period)
     state.hurry[c] *= math.exp(-needle.turn / HURRY_CYCLES)
     state.needle[c] = needle.needle
-    state.duty[c] += (aim.duty - state.duty[c]) * (1.0 - math.exp(-needle.turn / DUTY_CYCLES))
-    if state.gait_number[c] != command.gait_number[c]:
-        state.gait_number[c] = command.gait_number[c]
-        state.blend_left[c] = command.blend_cycles[c]
-        state.duty[c] = aim.duty
-        destination_disks(c, command, state.duty[c], scratch.start, scratch.extent)
-        state.needle[c] = align_cycle(
-            state.needle[c], state.swing_start[c], state.goal_start[c], state.lift_phase[c],
-            scratch.start, scratch.extent,
-        )  # fmt: skip
-    destination_disks(c, command, state.duty[c], scratch.start, scratch.extent)
+    state.duty[c] += duty_change(
+        c, aim.duty - state.duty[c], needle.turn, DUTY_CYCLES, state, command
+    )
+    if changes:
+        begin_transition(c, rung, aim.duty, stood, state, command, scratch)
+    destination_disks(c, state, state.duty[c], scratch.start, scratch.extent)
     blending = state.blend_left[c] > 0.0
     state.blend_left[c] = approach_disks(
         state.goal_start[c], state.goal_extent[c], scratch.start, scratch.extent,

@@ -149,6 +149,11 @@ class Gait:
         """Sum of the feet's duties: the mean number of feet down."""
         return float(np.sum(1.0 - self.swing_extent))
 
+    @property
+    def duty_share(self) -> FloatArray:
+        """[K] each foot's duty over the mean duty."""
+        return np.asarray((1.0 - self.swing_extent) / self.duty)
+
     def with_duty(self, duty: float) -> Gait:
         """Return this gait at another mean duty, clamped to the gait's own range.
 

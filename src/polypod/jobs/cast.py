@@ -35,7 +35,7 @@ class Role:
 
     place: str  # for messages: where it was asked for
     morphology: Morphology
-    gait: Gait | None  # None: what fits legs and speed
+    gait: Gait | None  # None: it follows the speed
     speed: float  # m/s
     count: int
     position: tuple[float, float]  # x, z, m; of several: the middle of their rows
@@ -244,11 +244,13 @@ def overdone(role: Role, herd: Herd) -> str | None:
     from polypod.gait.tempo import top_speed
 
     tables = herd.tables
-    lowest_duty = float(herd.command.arrays.gait_duty[0, 1])
+    follows = bool(herd.command.arrays.follows[0])
+    duties = tables.ladder.duty[:, 1] if follows else herd.command.arrays.gait_duty[:, 1]
+    lowest_duty = float(duties.min())
     most = float(top_speed(tables.leg_length, lowest_duty, float(tables.ik.stance_travel.min())))
     if role.speed <= most:
         return None
     return (
         f"{role.morphology.name} is asked for {role.speed:.3g} m/s, and its legs can do about "
-        f"{most:.2g} m/s in this gait; its feet will not keep up"
+        f"{most:.2g} m/s{'' if follows else ' in this gait'}; its feet will not keep up"
     )
