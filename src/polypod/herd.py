@@ -13,6 +13,7 @@ from polypod.command import Command
 from polypod.config import Settings
 from polypod.controller.lift import WIDEST_SEARCH
 from polypod.controller.spawn import WIDEST_SPAWN
+from polypod.controller.stride import make_stride_table
 from polypod.crowd.avoid import HEEDED
 from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
@@ -88,6 +89,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
     upright = bool(np.mean(legs.upright) > 0.5)
     track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
+    hip_height = max(hip_height, 0.05 * leg_length)
     ik = build_ik_table(legs)
     return HerdTables(
         legs=legs,
@@ -95,10 +97,11 @@ def make_tables(morphology: Morphology) -> HerdTables:
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
-        hip_height=max(hip_height, 0.05 * leg_length),
+        hip_height=hip_height,
         pendulum_time=math.sqrt(leg_length / GRAVITY),
         tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
         ladder=make_ladder(legs),
+        stride=make_stride_table(legs, ik, hip_height),
         track=track * (1.0 if upright else SPRAWLING_TRACK),
         # Two feet do not tell the slope of the ground ahead, nor what is level on it.
         level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,

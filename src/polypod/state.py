@@ -42,6 +42,7 @@ class HerdTables(NamedTuple):
     level_weight: float  # how much a foot prefers to land where the others stand
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
     ladder: GaitLadder  # the gaits it takes by itself, from slow to fast
+    stride: Any  # polypod.controller.stride.StrideTable
 
 
 class HerdState(NamedTuple):
@@ -83,6 +84,7 @@ class HerdState(NamedTuple):
     gait_share: FloatArray  # [C, K]
     gait_lag: FloatArray  # [C, K]
     gait_duty: FloatArray  # [C, 3]
+    sink: FloatArray  # [C] m by which it carries its body lower, to stride longer
     cycles: FloatArray  # [C] cycles walked, where strides vary
     seed: IntArray  # [C] of what varies
     least_down: IntArray  # [C] fewest feet that must stand at any moment
@@ -202,6 +204,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "halts",
             "rung",
             "gait_speed",
+            "sink",
             "cycles",
             "seed",
         ),

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from polypod.compute import kernel
-from polypod.controller.steering import PlanPose, plan_pose, predict
+from polypod.controller.steering import CYCLE, PlanPose, plan_pose, predict
+from polypod.controller.stride import SINK_CYCLES, travel_limit
 from polypod.gait.follow import duty_change, note_gait_speed, take_gait, wished_rung
 from polypod.gait.needle import minimum_feet_down, turn_needle
-from polypod.gait.tempo import Tempo, tempo
+from polypod.gait.tempo import tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
 from polypod.gait.variation import varied_period
 from polypod.math.intervals import wrap_phase
@@ -18,11 +19,21 @@ from polypod.math.intervals import wrap_phase
 DUTY_CYCLES = 0.5
 # How far ahead the tempo looks, leg pendulum times: about half a cycle.
 SOON = 1.5
-# A foot that has just lifted, or will soon land, moves slower than the body: the part of the reach
-# that is left to the stance.
-SWING_LAG = 0.9
+# A foot that has just lifted falls behind its body until it is as fast, and one that will land goes
+# ahead: in a bell-shaped swing by .14 of a stride, times the share of the cycle for which it swings
+# to this power. The leg is shorter meanwhile, and the body gives way: half of that counts.
+SWING_LAG = 0.07
+LAG_POWER = 1.5
 # Cycles in which a hurry dies away once legs have room again.
 HURRY_CYCLES = 3.0
+
+
+class Stride(NamedTuple):
+    """How a creature is to step."""
+
+    period: float  # s a cycle
+    duty: float  # mean duty factor
+    sink: float  # m by which its body is to be lower than it stands
 
 
 @kernel
@@ -38,18 +49,6 @@ def fastest_foot_speed(c: int, pose: PlanPose, state: Any, tables: Any) -> float
         sideways = pose.turn_rate * along
         most = max(most, math.hypot(forward, sideways))
     return most
-
-
-@kernel
-def stance_travel_limit(c: int, state: Any, command: Any, tables: Any) -> float:
-    """Return how far every leg lets its foot travel under the body while it stands, metres."""
-    ik = tables.ik
-    sideways = abs(math.sin(command.travel[c]))
-    limit = math.inf
-    for k in range(ik.stance_travel.shape[0]):
-        travel = ik.stance_travel[k] + sideways * (ik.stance_travel_least[k] - ik.stance_travel[k])
-        limit = min(limit, travel)
-    return min(SWING_LAG * limit, neighbour_limit(c, state, command, tables))
 
 
 @kernel
@@ -93,10 +92,16 @@ def destination_disks(c: int, state: Any, duty: float, start_out: Any, extent_ou
 
 
 @kernel
-def asked_tempo(
+def stance_share(duty: float) -> float:
+    """Return the part of a leg's reach along the way that is left to the stance."""
+    return duty / (duty + 2.0 * SWING_LAG * (1.0 - duty) ** LAG_POWER)
+
+
+@kernel
+def asked_stride(
     c: int, now: PlanPose, state: Any, command: Any, tables: Any, settings: Any
-) -> Tempo:
-    """Return the tempo of the speed now or soon: a walk's first step is as quick as its second.
+) -> Stride:
+    """Return the stride at the speed now or soon: a walk's first step is as quick as its second.
 
     The gait is that of the state; what the user pins of it is kept, a duty within its range.
     """
@@ -109,10 +114,23 @@ def asked_tempo(
     if not math.isnan(command.duty[c]):
         low = min(max(command.duty[c], low), high)
         high = low
-    return tempo(
-        speed, tables.hip_height, tables.leg_length, tables.upright, low, high,
-        stance_travel_limit(c, state, command, tables), command.period[c],
+    free = tempo(
+        speed, tables.hip_height, tables.leg_length, tables.upright, low, high, math.inf,
+        command.period[c],
     )  # fmt: skip
+    # Legs reach farther from a lower body, which sinks as far as the stride needs it.
+    share = stance_share(free.duty)
+    standing = share * travel_limit(c, 0, command, tables)
+    lowest = max(share * travel_limit(c, 1, command, tables), standing)
+    most = neighbour_limit(c, state, command, tables)
+    wished = min(speed * free.duty * free.period, most)
+    travel = min(max(wished, standing), lowest)
+    sink = (travel - standing) / max(lowest - standing, 1e-12) * tables.stride.sink
+    asked = tempo(
+        speed, tables.hip_height, tables.leg_length, tables.upright, low, high, min(travel, most),
+        command.period[c],
+    )  # fmt: skip
+    return Stride(asked.period, asked.duty, sink)
 
 
 @kernel
@@ -150,7 +168,7 @@ def advance_gait(
     changes = rung != state.rung[c] or state.gait_number[c] != command.gait_number[c]
     if changes:
         take_gait(c, rung, state, command, tables)
-    aim = asked_tempo(c, now, state, command, tables, settings)
+    aim = asked_stride(c, now, state, command, tables, settings)
     feet = state.swinging.shape[1]
     in_swing = 0
     for k in range(feet):
@@ -158,6 +176,7 @@ def advance_gait(
             in_swing += 1
     if not wishes_to_step and in_swing == 0:
         state.cycle_rate[c] = 0.0
+        state.sink[c] *= math.exp(-dt / (CYCLE * tables.pendulum_time))
         return 0.0
     period = aim.period
     if math.isnan(command.period[c]):
@@ -172,6 +191,7 @@ def advance_gait(
     state.duty[c] += duty_change(
         c, aim.duty - state.duty[c], needle.turn, DUTY_CYCLES, state, command
     )
+    state.sink[c] += (aim.sink - state.sink[c]) * (1.0 - math.exp(-needle.turn / SINK_CYCLES))
     if changes:
         begin_transition(c, rung, aim.duty, stood, state, command, scratch)
     destination_disks(c, state, state.duty[c], scratch.start, scratch.extent)

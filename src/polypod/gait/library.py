@@ -61,7 +61,7 @@ _ENTRIES = {
     "amble": _Entry("run", 0.40, 0.48, 0.55, lag=0.25),
     "pace": _Entry("run", 0.35, 0.43, 0.50, corners=(0.0, 0.5, 0.05, 0.55)),
     "canter": _Entry("run", 0.38, 0.41, 0.45, corners=(0.0, 0.28, 0.30, 0.57)),
-    "transverse-gallop": _Entry("run", 0.20, 0.25, 0.30, corners=(0.0, 0.13, 0.37, 0.52)),
+    "transverse-gallop": _Entry("run", 0.16, 0.25, 0.30, corners=(0.0, 0.13, 0.37, 0.52)),
     "rotary-gallop": _Entry("run", 0.15, 0.20, 0.25, corners=(0.0, 0.12, 0.60, 0.48)),
     "half-bound": _Entry("run", 0.25, 0.35, 0.45, corners=(0.0, 0.025, 0.45, 0.60)),
     "bound": _Entry("run", 0.25, 0.35, 0.45, corners=(0.0, 0.0, 0.5, 0.5)),
@@ -81,7 +81,7 @@ _ENTRIES = {
     "centipede": _Entry("arthropod", 0.50, 0.60, 0.70, lag=0.10),
     "millipede": _Entry("arthropod", 0.60, 0.70, 0.80, lag=0.06, right=0.0),
 }
-_BIPED_DUTY = {"walk": (0.60, 0.62, 0.65)}
+_BIPED_DUTY = {"walk": (0.57, 0.62, 0.70)}
 # A ring of legs has no pairs to alternate: these gaits step round it, never two neighbours in turn.
 _RING_GAITS = ("tripod", "tetrapod", "wave", "insect", "spider", "scorpion", "crab")
 
