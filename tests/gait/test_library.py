@@ -27,7 +27,7 @@ TABLE = {
     "amble": ((0, 0.5, 0.25, 0.75), (0.40, 0.55)),
     "pace": ((0, 0.5, (0, 0.10), (0.50, 0.60)), (0.35, 0.50)),
     "canter": ((0, 0.28, 0.30, 0.57), (0.38, 0.45)),
-    "transverse-gallop": ((0, 0.13, 0.37, 0.52), (0.20, 0.30)),
+    "transverse-gallop": ((0, 0.13, 0.37, 0.52), (0.16, 0.30)),
     "rotary-gallop": ((0, 0.12, 0.60, 0.48), (0.15, 0.25)),
     "half-bound": ((0, (0, 0.05), 0.45, 0.60), (0.25, 0.45)),
     "bound": ((0, 0, 0.5, 0.5), (0.25, 0.45)),
@@ -54,7 +54,7 @@ def test_quadrupeds_walk_by_the_published_table(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "right", "low", "high"),
-    [("walk", 0.5, 0.60, 0.65), ("run", 0.5, 0.25, 0.40), ("hop", 0.0, 0.30, 0.50)],
+    [("walk", 0.5, 0.57, 0.68), ("run", 0.5, 0.25, 0.40), ("hop", 0.0, 0.30, 0.50)],
 )
 def test_bipeds_walk_run_and_hop(name: str, right: float, low: float, high: float) -> None:
     gait = make_gait(name, [-1, 1], [0, 0])

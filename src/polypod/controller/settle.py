@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift, pitched
+from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift, may_drag, pitched
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
@@ -117,7 +117,8 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
     """Return whether every foot is within reach of a body pose, swinging ones as far as they may.
 
     A swinging foot goes on along its path if its leg can follow, and a standing one rolls on. Else
-    they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved.
+    they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved. In
+    gaits with flights the body does not wait for swinging feet: see `dragged`.
     """
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
@@ -128,7 +129,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
         bend = scratch.bend[k, 0]
         shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
-        if length(shift) <= 2.0 * tolerance:
+        if length(shift) <= 2.0 * tolerance or (state.swinging[c, k] and may_drag(c, state)):
             continue
         if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
             return False
@@ -140,6 +141,24 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         if length(shift) > 2.0 * tolerance:
             return False
     return True
+
+
+@kernel
+def dragged(c: int, k: int, sole: Vec3, state: Any, tables: Any, scratch: Any) -> Vec3:
+    """Return where a swinging foot gets whose body does not wait for it, world.
+
+    As near to its place on its path as its leg reaches: a foot that has just lifted falls behind
+    its body. It lands no sooner than it reaches its place.
+    """
+    position = load_vec3(state.position[c])
+    foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
+    bend = scratch.bend[k, 0]
+    turn = load_quat(state.rotation[c])
+    shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+    if length(shift) <= 2.0 * TOLERANCE * tables.leg_length:
+        return sole
+    scratch.progress[k] = min(scratch.progress[k], NEARLY_DOWN)
+    return sole + shift
 
 
 @kernel
@@ -207,6 +226,8 @@ def advance_swings(
             continue
         state.airborne[c, k] += dt
         sole = load_vec3(scratch.sole[k])
+        if may_drag(c, state) and not scratch.held[k]:
+            sole = dragged(c, k, sole, state, tables, scratch)
         if scratch.held[k]:
             state.waiting[c, k] += dt
             if env.mover_count > 0:

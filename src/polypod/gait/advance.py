@@ -176,7 +176,8 @@ def advance_gait(
             in_swing += 1
     if not wishes_to_step and in_swing == 0:
         state.cycle_rate[c] = 0.0
-        state.sink[c] *= math.exp(-dt / (CYCLE * tables.pendulum_time))
+        rise = dt / (CYCLE * tables.pendulum_time) * tables.stride.sink
+        state.sink[c] = max(state.sink[c] - rise, 0.0)
         return 0.0
     period = aim.period
     if math.isnan(command.period[c]):

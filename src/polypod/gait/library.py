@@ -81,7 +81,7 @@ _ENTRIES = {
     "centipede": _Entry("arthropod", 0.50, 0.60, 0.70, lag=0.10),
     "millipede": _Entry("arthropod", 0.60, 0.70, 0.80, lag=0.06, right=0.0),
 }
-_BIPED_DUTY = {"walk": (0.57, 0.62, 0.70)}
+_BIPED_DUTY = {"walk": (0.57, 0.62, 0.68)}
 # A ring of legs has no pairs to alternate: these gaits step round it, never two neighbours in turn.
 _RING_GAITS = ("tripod", "tetrapod", "wave", "insect", "spider", "scorpion", "crab")
 
