@@ -26,7 +26,7 @@ from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count
 from polypod.herd import Herd
 from polypod.ik.skeleton import pose_joints
-from polypod.math.vec3 import load_vec3
+from polypod.math.vec3 import load_vec3, store_vec3
 from polypod.morphology.types import FloatArray
 from polypod.routes.way import keep_ways
 
@@ -48,6 +48,8 @@ def begin_frame(first: int, last: int, dt: float, state: Any) -> int:
         state.frame[c] = min(dt, LONGEST_FRAME)
         state.steps[c] = step_count(dt * state.cycle_rate[c], state.swing_extent[c])
         most = max(most, state.steps[c])
+        for k in range(state.swinging.shape[1]):
+            store_vec3(state.foot_shown[c, k], load_vec3(state.foot[c, k]))
     return most
 
 
@@ -115,7 +117,7 @@ def settle_creatures(
         note_pose(c, seconds, pose, before, state, command, tables, settings)
         advance_swings(c, seconds, state, tables, scratch, env)
         reach_feet(c, seconds, state, command, tables)
-        note_headway(c, seconds, state, command, tables)
+        note_headway(c, seconds, state, command, tables, env)
         note_activity(c, state, command, tables)
 
 

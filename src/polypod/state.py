@@ -69,6 +69,9 @@ class HerdState(NamedTuple):
     judged: FloatArray  # [C, 3] x and z from which headway is judged, and the s since
     halted: FloatArray  # [C] s for which it still stands, for it made no headway
     halts: IntArray  # [C] how often in a row
+    caught: IntArray  # [C] the foot that the body goes back for, from 1; 0: none
+    caught_clock: FloatArray  # [C] s since it is, or has been none
+    shy: FloatArray  # [C] rad by which it passes to the side of where a foot was caught
     activity: IntArray  # [C] polypod.activity.Activity
     hurry: FloatArray  # [C] by how much quicker it steps because legs were at their limits
     swing_start: FloatArray  # [C, K] disks in use
@@ -104,6 +107,7 @@ class HerdState(NamedTuple):
     landing_own: FloatArray  # [C, K, 3] m: the landing place among the rows of what it is on
     wish: FloatArray  # [C, K, 3] where it would then have liked to land
     foot: FloatArray  # [C, K, 3] the sole as planned
+    foot_shown: FloatArray  # [C, K, 3] the sole when this frame began
     foot_start: FloatArray  # [C, K, 3] the sole at lift-off
     foot_target: FloatArray  # [C, K, 3] the footprint it is going to, or stands on
     foot_preferred: FloatArray  # [C, K, 3] where it would have liked to land
@@ -207,6 +211,9 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
             "sink",
             "cycles",
             "seed",
+            "caught",
+            "caught_clock",
+            "shy",
         ),
         (c,),
     )
@@ -246,6 +253,7 @@ def make_state(count: int, feet: int, joints: int) -> HerdState:
         (
             "foot",
             "foot_start",
+            "foot_shown",
             "foot_target",
             "foot_preferred",
             "foot_reached",

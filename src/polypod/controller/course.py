@@ -127,7 +127,8 @@ def choose_course(
     least = math.inf
     sides = COMPANY_SIDES if near > 0 else LOOK_SIDES
     for i in range(2 * sides + 1):
-        angle = LOOK_ANGLE * ((i + 1) // 2) * (1.0 if i % 2 == 1 else -1.0)
+        aside = LOOK_ANGLE * ((i + 1) // 2) * (1.0 if i % 2 == 1 else -1.0)
+        angle = state.shy[c] + aside
         direction = course + command.travel[c] + angle
         free = way_free(pose.x, pose.z, direction, margin, reach, env)
         if near > 0 and least < math.inf:
@@ -136,8 +137,8 @@ def choose_course(
             free = min(free, low)
         blocked = 1.0 - free
         change = abs(angle - state.detour[c])
-        turn = abs(angle)
-        if near > 0 and angle < 0.0:
+        turn = abs(aside)
+        if near > 0 and aside < 0.0:
             turn *= RIGHT_COST
         cost = 2.0 * blocked + DETOUR_COST * turn + CHANGE_COST * change
         whole, share = cost, 1.0

@@ -25,6 +25,11 @@ LEAST = 0.1
 FIRST_WAIT = 6.0
 LONGEST_WAIT = 48.0
 LONGEST_AMONG_OTHERS = 12.0
+# Who keeps a heading among what is forbidden first tries other ways: so often, to one side and the
+# other in turn, by so many radians and ever more.
+TRIES = 6
+ASIDE = 0.7
+FARTHER_ASIDE = 0.35
 # Something else is asked for where heading or goal are another by so much, rad and leg lengths.
 TURNED = 0.2
 MOVED = 0.5
@@ -72,7 +77,15 @@ def avoid_ahead(c: int, state: Any, command: Any, tables: Any) -> None:
 
 
 @kernel
-def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any) -> None:
+def try_aside(c: int, state: Any) -> None:
+    """Lead a creature that keeps a heading to a side, and then to the other."""
+    side = -1.0 if state.shy[c] > 0.0 else 1.0
+    state.shy[c] = side * (ASIDE + FARTHER_ASIDE * (state.halts[c] // 2))
+    state.halts[c] += 1
+
+
+@kernel
+def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any, env: Any) -> None:
     """Judge now and then whether a creature gets on; let it wait, or go another way, if not."""
     x = state.position[c, 0]
     z = state.position[c, 2]
@@ -84,7 +97,8 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any) -> No
         state.judged[c, 2] = 0.0
     halted = state.halted[c] > 0.0
     state.halted[c] = max(state.halted[c] - dt, 0.0)
-    state.judged[c, 2] += dt
+    if state.caught[c] == 0:
+        state.judged[c, 2] += dt
     if halted or does in (ARRIVED, BLOCKED) or command.speed[c] <= 0.0:
         state.judged[c, 2] = 0.0
     # Who has halted is judged from where that was: to shuffle to and fro there is no headway.
@@ -98,11 +112,14 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any) -> No
     least = LEAST * command.speed[c] * state.judged[c, 2]
     futile = gone < (max(least, MOVED * tables.leg_length) if state.halts[c] > 0 else least)
     state.judged[c, 2] = 0.0
+    tries = TRIES if env.forbidden_count > 0 and not state.crowded[c] else 0
     if not futile:
         state.halts[c] = 0
     elif command.waypoint_count[c] > 0 and not state.crowded[c]:
         avoid_ahead(c, state, command, tables)
+    elif state.halts[c] < tries:
+        try_aside(c, state)
     else:
         longest = LONGEST_AMONG_OTHERS if state.crowded[c] else LONGEST_WAIT
-        state.halted[c] = min(FIRST_WAIT * 2.0 ** state.halts[c], longest) * pendulum
-        state.halts[c] = min(state.halts[c] + 1, 8)
+        state.halted[c] = min(FIRST_WAIT * 2.0 ** (state.halts[c] - tries), longest) * pendulum
+        state.halts[c] = min(state.halts[c] + 1, tries + 8)

@@ -8,6 +8,7 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.course import choose_course
 from polypod.controller.propulsion import propulsion
+from polypod.controller.retreat import note_caught, way_back
 from polypod.controller.steering import PlanPose, plan_pose, steer
 from polypod.crowd.avoid import FORESIGHT, apart_from, list_neighbours, note_yielding
 
@@ -60,11 +61,15 @@ def move_body(
         # It does not turn about for a way out either.
         state.detour[c] = 0.0
         state.pace[c] = 0.0
+    note_caught(c, dt, state, tables)
+    back_x, back_z = way_back(c, state, tables, settings)
+    if state.caught[c] > 0:
+        state.pace[c] = 0.0
     driven = propulsion(c, state, scratch)
     pose = steer(plan_pose(c, state), c, state, command, tables, settings, dt, driven)
     x, z = feedback(c, state, tables, settings)
-    x = pose.x + x * dt
-    z = pose.z + z * dt
+    x = pose.x + (x + back_x) * dt
+    z = pose.z + (z + back_z) * dt
     heading = pose.heading
     turn_rate = pose.turn_rate
     speed = pose.speed

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from polypod.body.reach import effector_world
-from polypod.body.support import body_rotation, foot_on_its_way, smooth_step
+from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.controller.rest import body_height_at, rest_offset
@@ -33,8 +33,8 @@ def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int
         gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
         if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
             continue
-        sole = foot_on_its_way(c, other, state)
-        if state.swinging[c, other]:
+        sole = load_vec3(state.foot[c, other])
+        if state.swinging[c, other] and not hangs(c, other, state):
             sole = load_vec3(state.foot_target[c, other])
         knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
         moved = sole - load_vec3(state.foot_reached[c, other])
@@ -51,6 +51,12 @@ def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int
 
 
 @kernel
+def hangs(c: int, k: int, state: Any) -> bool:
+    """Return whether a foot in the air goes nowhere: it reaches out, or its leg holds it back."""
+    return bool(state.reaching[c, k] or state.waiting[c, k] > 0.0)
+
+
+@kernel
 def foot_later(
     c: int, k: int, seconds: float, then: PlanPose, command: Any, state: Any, tables: Any,
     settings: Any, env: Any,
@@ -60,14 +66,16 @@ def foot_later(
     A standing foot stays until the needle enters its sector, and then goes to where it would rest
     at mid-stance, on level ground as high as where it is.
     """
+    here = load_vec3(state.foot[c, k])
     if state.swinging[c, k]:
+        if hangs(c, k, state):
+            return here
         left = swing_time_left(c, k, state)
         if seconds >= left:
             return load_vec3(state.foot_target[c, k])
         now = state.swing_progress[c, k]
         sole, _ = foot_along(c, k, now + (1.0 - now) * seconds / max(left, 1e-9), state, env)
         return sole
-    here = load_vec3(state.foot[c, k])
     rate = state.cycle_rate[c]
     extent = state.swing_extent[c, k]
     if rate <= 0.0 or extent <= 0.0:

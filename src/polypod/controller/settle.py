@@ -4,14 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import TOLERANCE, body_within_reach, foot_shift, may_drag, pitched
+from polypod.body.reach import (
+    EARLY,
+    EARLY_PULL,
+    LATE_PULL,
+    TOLERANCE,
+    body_within_reach,
+    foot_shift,
+    may_drag,
+    pitched,
+)
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
 from polypod.controller.steering import PlanPose, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.crowd.avoid import apart_from, list_neighbours
-from polypod.environment.movers import clear_of_movers
+from polypod.environment.movers import clear_of_movers, depth_in_mover
 from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
@@ -19,6 +28,8 @@ from polypod.morphology.roll import FLAT
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
+# A body is moved so often to where its feet have been carried.
+CARRIED_TRIES = 4
 # The body rises or sinks at most so many leg lengths a pendulum time, and turns so many radians.
 FASTEST_RISE = 0.4
 FASTEST_TILT = 0.8
@@ -35,6 +46,9 @@ LANDED = 1e-3
 PUSHES = 4
 # And so far is a foot pushed for those between two frames, leg lengths.
 LARGEST_PUSH = 0.05
+# A foot that its leg could not carry on goes on by so much of its way that it pulls at the body by
+# this share of what may be pulled: that draws the body back out of a pocket.
+DRAWN = 0.9
 # How deep the straight way between two frames may cut into what is stepped on, leg lengths.
 CUT = 0.006
 
@@ -58,23 +72,57 @@ def chord_is_free(dt: float, accepted: float, before: Vec3, after: Vec3, env: An
 
 
 @kernel
-def pushed_aside(
-    c: int, k: int, dt: float, before: Vec3, sole: Vec3, state: Any, tables: Any, env: Any
-) -> Vec3:  # fmt: skip
+def cleared(env: Any, place: Vec3, ahead: float, own: int, accepted: float) -> Vec3:
+    """Return a place, or the one by it that nothing that moves takes up `ahead` s from now.
+
+    What the foot is to land on, `own`, is left alone up to a depth of `accepted`, m.
+    """
+    if own >= 0 and depth_in_mover(env, own, place, ahead) > accepted:
+        own = -1
+    return clear_of_movers(env, place, ahead, own)
+
+
+@kernel
+def pushed_aside(c: int, k: int, sole: Vec3, state: Any, tables: Any, env: Any) -> Vec3:
     """Return where a foot gets in a frame in which something comes without warning, world.
 
     What is played between two frames is a straight line: it is cleared at four moments.
     """
     own = state.landing_support[c, k]
-    sole = clear_of_movers(env, sole, 0.0, own)
+    before = load_vec3(state.foot_shown[c, k])
+    dt = state.frame[c]
+    accepted = CUT * tables.legs.length[k]
+    sole = cleared(env, sole, 0.0, own, accepted)
     for j in range(1, PUSHES):
         share = j / PUSHES
         place = mix(before, sole, share)
-        push = (clear_of_movers(env, place, (share - 1.0) * dt, own) - place) * (1.0 / share)
+        push = (cleared(env, place, (share - 1.0) * dt, own, accepted) - place) * (1.0 / share)
         size = length(push)
         most = LARGEST_PUSH * tables.legs.length[k]
         sole = sole + push * (min(size, most) / max(size, 1e-12))
     return sole
+
+
+@kernel
+def may_go(
+    c: int, k: int, progress: float, sole: Vec3, turn: Quat, state: Any, tables: Any, env: Any,
+    scratch: Any,
+) -> bool:  # fmt: skip
+    """Return whether a foot may be at `sole` at the end of the frame.
+
+    What is played of the frame is a straight way; and where its leg could not carry the foot on
+    before, the body is drawn along, but by no more than a frame's worth.
+    """
+    unit = tables.legs.length[k]
+    if not chord_is_free(state.frame[c], CUT * unit, load_vec3(state.foot_shown[c, k]), sole, env):
+        return False
+    if state.waiting[c, k] == 0.0 and state.caught[c] != k + 1:
+        return True
+    foot_turn = pitched(turn, scratch.pitch[k, 0])
+    position = load_vec3(state.position[c])
+    body_turn = load_quat(state.rotation[c])
+    shift = foot_shift(k, tables, sole, foot_turn, scratch.bend[k, 0], position, body_turn)
+    return length(shift) <= DRAWN * (EARLY_PULL if progress < EARLY else LATE_PULL) * unit
 
 
 @kernel
@@ -95,17 +143,17 @@ def wish_feet(
             progress = wished_progress(c, k, dt, state)
             if state.airborne[c, k] + dt <= FRAMES_AIRBORNE * state.frame[c]:
                 progress = min(progress, NEARLY_DOWN)
-            before = sole
-            sole, turn = foot_along(c, k, progress, state, env)
-            for _ in range(SHORTER):
-                if chord_is_free(dt, CUT * tables.legs.length[k], before, sole, env):
+            for attempt in range(SHORTER + 1):
+                sole, turn = foot_along(c, k, progress, state, env)
+                roll_swinging(c, k, dt, progress, state, scratch)
+                if attempt == SHORTER or may_go(
+                    c, k, progress, sole, turn, state, tables, env, scratch
+                ):
                     break
                 progress = 0.5 * (now + progress)
-                sole, turn = foot_along(c, k, progress, state, env)
             if env.mover_count > 0:
-                sole = pushed_aside(c, k, dt, before, sole, state, tables, env)
+                sole = pushed_aside(c, k, sole, state, tables, env)
             scratch.progress[k] = progress
-            roll_swinging(c, k, dt, progress, state, scratch)
         else:
             roll_standing(c, k, dt, state, command, tables, scratch)
         store_vec3(scratch.sole[k], sole)
@@ -199,8 +247,11 @@ def settle_body(
         fits = apart and feet_fit(c, position, turned, state, tables, scratch)
         if share == 0.0 and not fits and env.mover_count > 0:
             # What some feet stand on has carried the body away from the others.
-            position = body_within_reach(c, state, tables, scratch, position, turned)
-            fits = feet_fit(c, position, turned, state, tables, scratch)
+            for _ in range(CARRIED_TRIES):
+                position = body_within_reach(c, state, tables, scratch, position, turned)
+                fits = feet_fit(c, position, turned, state, tables, scratch)
+                if fits:
+                    break
         if fits or share == 0.0:
             state.held[c] = share
             store_vec3(state.position[c], position)
@@ -232,7 +283,7 @@ def advance_swings(
             state.waiting[c, k] += dt
             if env.mover_count > 0:
                 here = load_vec3(state.foot[c, k])
-                here = pushed_aside(c, k, dt, here, here, state, tables, env)
+                here = pushed_aside(c, k, here, state, tables, env)
                 # A body that is carried away by what it stands on takes its feet in the air along.
                 position = load_vec3(state.position[c])
                 turn = load_quat(state.rotation[c])

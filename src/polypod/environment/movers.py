@@ -28,6 +28,20 @@ def mover_depth(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int
 
 
 @kernel
+def depth_in_mover(env: EnvironmentTable, i: int, point_world: Vec3, ahead: float) -> float:
+    """Return how deep a point will be inside obstacle `i`, `ahead` s from now, m.
+
+    Below zero outside; minus infinity where it does not move.
+    """
+    deepest = -math.inf
+    for m in range(env.mover_count):
+        o = env.movers[m]
+        if env.owner[o] == i:
+            deepest = max(deepest, depth_inside(env, o, own_point(env, i, point_world, ahead)))
+    return deepest
+
+
+@kernel
 def clear_of_movers(env: EnvironmentTable, point_world: Vec3, ahead: float, own: int) -> Vec3:
     """Return a point, or the place by it that nothing that moves, but `own`, takes up.
 

@@ -6,8 +6,8 @@ from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable
 from polypod.footprints.scratch import TALLY_PATHS, PlanScratch
 from polypod.footprints.settings import PlanSettings, StepRequest
-from polypod.math.vec3 import Vec3
-from polypod.paths.apart import LegsAhead, path_factor
+from polypod.math.vec3 import Vec3, length_plan
+from polypod.paths.apart import LegsAhead, path_factor, strains_hip
 from polypod.paths.check import chords_clear, deepest, meets_legs, out_of_reach
 from polypod.paths.curve import PATH_KNOTS, PathRow
 from polypod.paths.lift import BLEND, SHORTEST, arc_start, lift_path, place_knots, straight_plan
@@ -17,6 +17,8 @@ from polypod.paths.scratch import LiftScratch, OtherLegs
 NOTHING = -1.0
 # A pair that scores less, as where legs would touch, is taken only if farther places do no better.
 POOR = 0.5
+# A way that is so many times as long as the straight one goes round something.
+ROUND = 1.1
 
 
 @kernel
@@ -53,6 +55,9 @@ def try_pair(
         if pair <= best or out_of_reach(request, settings.reach, trial):
             return NOTHING, 0.0
         if meets_legs(legs, request.other_foot_count, foot + settings.leg_gap * leg, trial):
+            return NOTHING, 0.0
+        detour = lift.plan[points - 1, 2] > ROUND * length_plan(end - request.start_world)
+        if detour and strains_hip(legs_ahead, request, trial):
             return NOTHING, 0.0
         # It poses legs: after what costs less to find out.
         pair *= path_factor(legs_ahead, request, trial)

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from polypod.compute import kernel
 from polypod.footprints.frame import FootFrame, place_out
 from polypod.footprints.settings import StepRequest
-from polypod.ik.solve import solve_leg
+from polypod.ik.reach import direction_strain
+from polypod.ik.solve import offset_from_hip, solve_leg
 from polypod.ik.types import IkTable
 from polypod.math.quat import load_quat, rotate, unrotate
 from polypod.math.segments import segment_gap
@@ -39,6 +40,9 @@ ROOM = 0.03
 # inside each other by `ROOM`. Deeper it is worth ever less: legs that are crossed come out again.
 TOUCHING = 0.6
 INSIDE = 0.15
+
+# A hip is turned too far on the way at so much of its range: a little beyond may be a prediction's.
+STRAINED = 1.02
 
 
 class LegsAhead(NamedTuple):
@@ -194,19 +198,24 @@ def factor_of(room: float, most: float) -> float:
 
 
 @kernel
+def place_ahead(ahead: LegsAhead, place: Vec3) -> Vec3:
+    """Return in the world a place that is in the world, or in the frame that `ahead` says."""
+    kept = ahead.frame
+    if kept[4] == 0.0:
+        return place
+    return place_out(FootFrame(kept[0], kept[1], kept[2], kept[3], kept[4]), place)
+
+
+@kernel
 def room_beside(
     ahead: LegsAhead, moment: int, request: StepRequest, sole: Vec3, most: float
 ) -> float:
     """Return the least room at a moment with the sole at a place, m; at most `most`.
 
-    The place is in the world, or in the frame that `ahead` says.
+    The place is as for `place_ahead`.
     """
-    kept = ahead.frame
-    effector = sole + request.effector_offset_touchdown
-    if kept[4] != 0.0:
-        frame = FootFrame(kept[0], kept[1], kept[2], kept[3], kept[4])
-        sole = place_out(frame, sole)
-        effector = place_out(frame, effector)
+    effector = place_ahead(ahead, sole + request.effector_offset_touchdown)
+    sole = place_ahead(ahead, sole)
     return room_at(ahead, moment, sole, effector, request.leg_length, most)
 
 
@@ -229,3 +238,23 @@ def path_factor(ahead: LegsAhead, request: StepRequest, path: PathRow) -> float:
         sole = path_point(path.point, path.tangent, path.fraction, path.count[0], along)
         room = room_beside(ahead, moment, request, sole, room)
     return factor_of(room, most)
+
+
+@kernel
+def strains_hip(ahead: LegsAhead, request: StepRequest, path: PathRow) -> bool:
+    """Return whether the leg would have to turn at its hip farther than it can on the way.
+
+    Ways round what is forbidden lead there, behind the body or under it.
+    """
+    own = ahead.own[0]
+    hip = load_vec3(ahead.ik.hip_rest[own])
+    for moment in range(TOUCHDOWN):
+        along, _ = swing_progress(request.profile, MOMENTS[moment], request.launch)
+        sole = path_point(path.point, path.tangent, path.fraction, path.count[0], along)
+        effector = place_ahead(ahead, sole + request.effector_offset_touchdown)
+        turn = load_quat(ahead.rotation[moment])
+        target = unrotate(turn, effector - load_vec3(ahead.position[moment]))
+        offset = offset_from_hip(target, hip, ahead.ik.chain_length[own])
+        if direction_strain(ahead.ik, own, offset) > STRAINED:
+            return True
+    return False
