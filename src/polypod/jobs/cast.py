@@ -16,6 +16,7 @@ from polypod.errors import SettingError, choices
 from polypod.jobs.rig_options import RIG_OPTIONS, load_given_rig
 
 if TYPE_CHECKING:
+    from polypod.config import Settings
     from polypod.environment.scene import CreatureSpec, Scene
     from polypod.gait.pattern import Gait
     from polypod.herd import Herd
@@ -215,7 +216,7 @@ def walking_seconds(roles: list[Role], default: float) -> float:
     return math.ceil(longest * 10.0) / 10.0
 
 
-def enter(world: World, role: Role) -> Herd:
+def enter(world: World, role: Role, settings: Settings | None = None) -> Herd:
     """Stand a role's creatures in the world, in rows if they are several, each with its path.
 
     Raises:
@@ -232,6 +233,7 @@ def enter(world: World, role: Role) -> Herd:
         heading=role.heading,
         gait=role.gait,
         speed=role.speed,
+        settings=settings,
     )
     if role.path:
         for c in range(role.count):

@@ -38,7 +38,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--scene", type=filled, metavar="SCENE.toml", help="where to walk; omitted: flat ground"
     )
     parser.add_argument(
-        "--gait", type=filled, metavar="NAME|FILE", help="see polypod gait; omitted: what fits"
+        "--gait",
+        type=filled,
+        metavar="NAME|FILE",
+        help="see polypod gait; omitted: it follows the speed",
     )
     parser.add_argument(
         "--speed",
@@ -66,7 +69,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=whole(0, 2**31 - 1, "a seed"),
         default=0,
         metavar="N",
-        help="another number, another field: added to the seeds of the scene",
+        help="another number, another field, other strides: added to the seeds of the scene",
+    )
+    parser.add_argument(
+        "--stride-variation",
+        type=number(0.0, 0.2, "of a stride's time"),
+        default=0.0,
+        metavar="SHARE",
+        help="by how much strides' times differ, 0.02 to 0.04 in animals; default: 0",
     )
     parser.add_argument(
         "-o",
@@ -104,7 +114,7 @@ def run(given: argparse.Namespace) -> int:
     if scene is not None and scene.pushes:
         warn(f"{scene.path} has pushes, which this version does not simulate; it walks unpushed")
     with telling_of_compilation():
-        recordings, environment = _walk(roles, scene, seconds, given.fps)
+        recordings, environment = _walk(roles, scene, seconds, given)
         reports = _judge_walks(
             roles, recordings, environment, seconds, bool(given.report and outputs.glb)
         )
@@ -138,25 +148,27 @@ def _judge_length(roles: list[Role], seconds: float, fps: float) -> None:
 
 
 def _walk(
-    roles: list[Role], scene: Scene | None, seconds: float, fps: float
+    roles: list[Role], scene: Scene | None, seconds: float, given: argparse.Namespace
 ) -> tuple[list[Recording], Environment]:
+    from polypod.config import Settings
     from polypod.environment.environment import Environment
     from polypod.jobs.cast import enter, overdone
     from polypod.recording import record_walk
     from polypod.world import World
 
     environment = Environment() if scene is None else scene.environment()
-    world = World(environment)
+    world = World(environment, seed=given.seed)
+    settings = Settings(stride_variation=given.stride_variation)
     for role in roles:
         try:
-            herd = enter(world, role)
+            herd = enter(world, role, settings)
         except SettingError as error:
             raise SettingError(f"{role.place}: {error}") from None
         too_fast = overdone(role, herd)
         if too_fast is not None:
             warn(too_fast)
     with progress("walking") as advance:
-        return record_walk(world, seconds, fps, advance), environment
+        return record_walk(world, seconds, given.fps, advance), environment
 
 
 def _judge_walks(
