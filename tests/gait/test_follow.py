@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from walker import paired
 
 from polypod.config import Settings
 from polypod.errors import SettingError
-from polypod.gait.follow import PINNED, next_rung
+from polypod.gait.follow import PINNED, next_rung, note_gait_speed
 from polypod.gait.library import gait_ladder, make_gait
 from polypod.gait.tempo import GRAVITY
 from polypod.gait.variation import period_factor
@@ -29,6 +29,7 @@ def speed_of(froude: float, length: float = 0.5) -> float:
     return math.sqrt(froude * GRAVITY * length)
 
 
+@settings(deadline=None)  # the first call loads a kernel
 @given(st.lists(st.floats(0.0, 30.0), min_size=1, max_size=40), st.floats(0.01, 5.0))
 def test_a_rung_is_left_a_tenth_late_and_never_twice_for_one_wobble(
     froudes: list[float], length: float
@@ -36,7 +37,11 @@ def test_a_rung_is_left_a_tenth_late_and_never_twice_for_one_wobble(
     rung = next_rung(PINNED, 0.0, length, LIMIT)
     assert rung == 0
     for froude in froudes:
-        before, rung = rung, next_rung(rung, speed_of(froude, length), length, LIMIT)
+        before = rung
+        for _ in QUADRUPED:
+            # Upward one at a time.
+            last, rung = rung, next_rung(rung, speed_of(froude, length), length, LIMIT)
+            assert rung <= last + 1
         # Where the speed has not passed the band about a limit, nothing changes.
         for place, limit in enumerate(QUADRUPED):
             if froude > 1.1001 * limit:
@@ -121,12 +126,25 @@ def test_a_speed_that_wobbles_about_a_limit_changes_nothing() -> None:
 
 
 def test_who_is_held_back_for_a_moment_keeps_its_gait() -> None:
-    world, herd = start("wolf", 1.6)
-    walk(herd, world, 4.0, 30.0)
-    assert herd.gait_name == ("trot",)
-    for _ in range(6):
-        herd.state.speed[:] = 0.5
-        assert walk(herd, world, 1.0, 30.0) == ["trot"]
+    herd = Herd(load_rig("wolf"), 1, Settings())
+    state, length = herd.state, herd.tables.hip_height
+    state.cycle_rate[:] = 2.0
+    state.gait_speed[:] = 1.6
+
+    def rung_after(speed: float, cycles: float) -> int:
+        for _ in range(round(cycles / 0.05)):
+            note_gait_speed(0, speed, 0.05, herd.kernel_state)
+        return next_rung(1, float(state.gait_speed[0]), length, herd.tables.ladder.limit)
+
+    for _ in range(10):
+        # Half as fast for half a cycle, and up to speed again.
+        assert rung_after(0.8, 0.5) == 1
+        assert rung_after(1.6, 0.5) == 1
+    assert rung_after(0.8, 4.0) == 0
+    # Who stands has no speed to choose by.
+    state.cycle_rate[:] = 0.0
+    note_gait_speed(0, 1.6, 0.05, herd.kernel_state)
+    assert state.gait_speed[0] == 0.0
 
 
 def test_a_pinned_gait_stays_and_can_be_let_go() -> None:
@@ -171,7 +189,7 @@ def test_an_insects_pattern_glides_from_wave_to_tripod() -> None:
     assert slow > 0.8
     assert herd.state.least_down[0] >= 5
     moved = []
-    herd.command.speed = 1.2
+    herd.command.speed = 2.2
     for _ in range(240):
         before = herd.state.goal_start[0].copy()
         needle = float(herd.state.needle[0])
@@ -181,8 +199,8 @@ def test_an_insects_pattern_glides_from_wave_to_tripod() -> None:
         # A lift moves by the touchdown's way and the stance's, and never faster than the needle.
         moved.append(float(np.abs(shift).max()) / max(turn, 1e-9))
     assert max(moved) < 0.6
-    assert herd.state.duty[0] == pytest.approx(0.5, abs=0.02)
-    assert herd.state.least_down[0] == 3
+    assert herd.state.duty[0] == pytest.approx(0.5, abs=0.01)
+    assert herd.state.least_down[0] >= 2
 
 
 def test_a_run_changes_no_speed_in_flight() -> None:
@@ -214,6 +232,7 @@ def test_who_runs_to_a_place_stops_there() -> None:
     assert farthest < 8.15
 
 
+@settings(deadline=None)
 @given(
     st.lists(st.tuples(st.floats(0.0, 0.999), st.floats(0.0, 0.9)), min_size=1, max_size=8),
     st.booleans(),

@@ -15,6 +15,8 @@ from polypod.math.intervals import covered_share, wrap_phase
 MOMENTS = 4
 # Where feet hardly push at all, changes of speed are not as much larger as would make up for it.
 LEAST_SHARE = 0.1
+# A flight that lasts so many cycles longer than the gait's is none that the gait meant.
+OVERDUE = 0.1
 
 
 @kernel
@@ -28,6 +30,18 @@ def is_propelling(c: int, k: int, phase: float, late: bool, state: Any) -> bool:
     if inside < extent:
         return late
     return bool(inside - extent >= 0.5 * (1.0 - extent))
+
+
+@kernel
+def is_overdue(c: int, state: Any) -> bool:
+    """Return whether no foot is down although one should have landed a while ago."""
+    overdue = False
+    for k in range(state.swinging.shape[1]):
+        if not state.swinging[c, k]:
+            return False
+        inside = wrap_phase(state.needle[c] - state.swing_start[c, k])
+        overdue = overdue or inside > state.swing_extent[c, k] + OVERDUE
+    return overdue
 
 
 @kernel
@@ -50,6 +64,8 @@ def propulsion(c: int, state: Any, scratch: Any) -> float:
             if not state.swinging[c, k] and is_propelling(c, k, phase, late, state):
                 driven += 1
                 break
+    if driven == 0 and is_overdue(c, state):
+        return 1.0
     for k in range(feet):
         half = 0.5 * (1.0 - state.swing_extent[c, k])
         scratch.start[k] = wrap_phase(state.swing_start[c, k] - half)

@@ -196,7 +196,7 @@ def dragged(c: int, k: int, sole: Vec3, state: Any, tables: Any, scratch: Any) -
     """Return where a swinging foot gets whose body does not wait for it, world.
 
     As near to its place on its path as its leg reaches: a foot that has just lifted falls behind
-    its body. It lands no sooner than it reaches its place.
+    its body.
     """
     position = load_vec3(state.position[c])
     foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
@@ -205,7 +205,6 @@ def dragged(c: int, k: int, sole: Vec3, state: Any, tables: Any, scratch: Any) -
     shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
     if length(shift) <= 2.0 * TOLERANCE * tables.leg_length:
         return sole
-    scratch.progress[k] = min(scratch.progress[k], NEARLY_DOWN)
     return sole + shift
 
 
@@ -277,8 +276,6 @@ def advance_swings(
             continue
         state.airborne[c, k] += dt
         sole = load_vec3(scratch.sole[k])
-        if may_drag(c, state) and not scratch.held[k]:
-            sole = dragged(c, k, sole, state, tables, scratch)
         if scratch.held[k]:
             state.waiting[c, k] += dt
             if env.mover_count > 0:
@@ -292,7 +289,15 @@ def advance_swings(
                 here = here + foot_shift(k, tables, here, foot_turn, bend, position, turn)
                 store_vec3(state.foot[c, k], here)
             continue
-        state.waiting[c, k] = 0.0
+        late = 0.0
+        if may_drag(c, state):
+            near = dragged(c, k, sole, state, tables, scratch)
+            if near != sole and scratch.progress[k] >= NEARLY_DOWN:
+                # Its place is out of reach, and no place to land: another is looked for soon.
+                scratch.progress[k] = NEARLY_DOWN
+                late = state.waiting[c, k] + dt
+            sole = near
+        state.waiting[c, k] = late
         state.swing_progress[c, k] = scratch.progress[k]
         store_vec3(state.foot[c, k], sole)
         store_quat(state.foot_rotation[c, k], load_quat(scratch.turn[k]))

@@ -139,7 +139,8 @@ def begin_transition(
 ) -> None:
     """Begin to change to the gait that was taken: its circle is turned to where it is nearest.
 
-    Of a creature that `stood` all feet change at once, if its gait follows its speed.
+    Of a creature that `stood` all feet change at once, if its gait follows its speed: it begins
+    its next walk with the slowest.
     """
     state.gait_number[c] = command.gait_number[c]
     state.rung[c] = rung
@@ -178,6 +179,8 @@ def advance_gait(
         state.cycle_rate[c] = 0.0
         rise = dt / (CYCLE * tables.pendulum_time) * tables.stride.sink
         state.sink[c] = max(state.sink[c] - rise, 0.0)
+        if changes and command.follows[c]:
+            begin_transition(c, rung, aim.duty, True, state, command, scratch)
         return 0.0
     period = aim.period
     if math.isnan(command.period[c]):

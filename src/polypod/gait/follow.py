@@ -22,7 +22,7 @@ from polypod.morphology.types import LegTable
 # The speed that decides follows the creature's own within so many cycles, upward and downward:
 # who is held back for a moment keeps its gait.
 QUICKENING = 0.25
-SLACKENING = 1.0
+SLACKENING = 1.5
 # Touchdowns that follow the duty move at most so far round the circle in a cycle: a foot's stance
 # is longer or shorter by no more.
 LARGEST_SHIFT = 0.3
@@ -75,14 +75,17 @@ def note_gait_speed(c: int, speed: float, turn: float, state: Any) -> None:
 def next_rung(rung: int, speed: float, length: float, limit: FloatArray) -> int:
     """Return the rung to be on at a speed, m/s: the present one until a limit is well passed.
 
-    `length` is what Froude numbers of the limits [R] count with, m. A creature without a rung gets
-    the one that its speed asks for.
+    Who gains speed takes one gait after the other, who loses it may leave some out. `length` is
+    what Froude numbers of the limits [R] count with, m. A creature without a rung gets the one that
+    its speed asks for.
     """
     froude = froude_number(speed, length)
     slack = 0.0 if rung == PINNED else FROUDE_HYSTERESIS
     chosen = max(rung, 0)
     while froude > limit[chosen] * (1.0 + slack):
         chosen += 1
+        if rung != PINNED:
+            return chosen
     while chosen > 0 and froude < limit[chosen - 1] * (1.0 - slack):
         chosen -= 1
     return chosen
