@@ -40,7 +40,8 @@ def turned(request, heading, shift, mirror=False):
         "hip_end_of_stance",
         "body_position",
     )
-    arrows = ("start_velocity", "effector_offset_touchdown", "side")
+    offsets = ("effector_offset_touchdown", "effector_offset_end_of_stance")
+    arrows = ("start_velocity", *offsets, "side")
     moved = {name: place(getattr(request, name)) for name in points}
     moved |= {name: arrow(getattr(request, name)) for name in arrows}
     return request._replace(**moved, foot_yaw=flip * request.foot_yaw + heading), place

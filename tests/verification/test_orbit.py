@@ -10,10 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from polypod.config import WALKING_VAULT as VAULT
 from polypod.errors import SettingError
 from polypod.gait.build import Build
 from polypod.gait.library import make_gait, names
-from polypod.gait.orbit import GRAVITY, VAULT, Orbit, normal_weight, orbit_of, vault_of
+from polypod.gait.orbit import GRAVITY, Orbit, normal_weight, orbit_of, vault_of
 from polypod.gait.pattern import Gait
 from polypod.gait.validation import check_gait
 

@@ -30,8 +30,6 @@ from polypod.errors import SettingError
 from polypod.gait.pattern import BoolArray, FloatArray, Gait
 
 GRAVITY = 9.81  # m/s^2
-# Alexander & Jayes' q of a walk that vaults over its legs.
-VAULT = 0.4
 # Beyond it a foot would pull at mid-stance.
 LARGEST_VAULT = 1.0
 # Samples of a cycle among which extremes are looked for before they are refined.
@@ -220,7 +218,7 @@ class Orbit:
 
 def vault_of(gait: Gait, upright: bool) -> float:
     """Return q: walks on legs that stand below their hips vault, everything else bounces."""
-    return VAULT if upright and gait.family == "walk" else 0.0
+    return gait.vault if upright else 0.0
 
 
 def orbit_of(

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from polypod.config import WALKING_VAULT
 from polypod.errors import GaitError, choices
 
 FloatArray = NDArray[np.float64]
@@ -148,6 +149,16 @@ class Gait:
     def duty_sum(self) -> float:
         """Sum of the feet's duties: the mean number of feet down."""
         return float(np.sum(1.0 - self.swing_extent))
+
+    @property
+    def duty_share(self) -> FloatArray:
+        """[K] each foot's duty over the mean duty."""
+        return np.asarray((1.0 - self.swing_extent) / self.duty)
+
+    @property
+    def vault(self) -> float:
+        """Alexander's q of the body's motion on upright legs: walks vault, all else bounces."""
+        return WALKING_VAULT if self.family == "walk" else 0.0
 
     def with_duty(self, duty: float) -> Gait:
         """Return this gait at another mean duty, clamped to the gait's own range.
