@@ -28,8 +28,8 @@ DEEPEST_SINK = 0.10
 SINK_CYCLES = 1.0
 # A heel is up when its foot lifts, and not much earlier: so much of its rise counts.
 HEEL_COUNTED = 0.7
-# With more legs on a side the feet would come too near to each other.
-MOST_ON_A_SIDE = 2
+# With more legs than these feet would come too near to each other, and stand low enough.
+MOST_LEGS = 4
 
 
 class StrideTable(NamedTuple):
@@ -46,15 +46,15 @@ def make_stride_table(legs: LegTable, ik: IkTable, hip_height: float) -> StrideT
     count = len(legs.length)
     travel, centre = np.zeros((2, count)), np.zeros((2, count))
     kernel_ik = by_reference(ik)
-    on_a_side = max(int((legs.side == side).sum()) for side in (-1, 0, 1))
     for k in range(count):
         risen = _heel_shift(legs, k)
         for row in range(2):
-            low = np.array([0.0, row * DEEPEST_SINK * hip_height, 0.0])
+            deep = row * DEEPEST_SINK * hip_height if count <= MOST_LEGS else 0.0
+            low = np.array([0.0, deep, 0.0])
             stance = ik.effector_stance[k] - ik.hip_rest[k] + low
             ahead = _reach_along(ik, kernel_ik, k, stance, 1.0)
             behind = _reach_along(ik, kernel_ik, k, stance + risen, -1.0)
-            if on_a_side > MOST_ON_A_SIDE:
+            if count > MOST_LEGS:
                 ahead = behind = min(ahead, behind)
             travel[row, k] = ahead + behind
             centre[row, k] = 0.5 * (ahead - behind)
