@@ -95,6 +95,6 @@ def land_blow(blow: Blow, rows: IntArray, state: Any, tables: Any) -> None:
 def push_up(speed: FloatArray, rows: IntArray, state: Any) -> None:
     """Let the vertical part of an impulse act: `speed` [N], m/s, of the rows [N] of a herd.
 
-    The only place where a push meets what moves the body up and down.
+    Each foot's particle gets it, and the body, which is their mean.
     """
-    state.lift[rows, 1] += speed
+    state.particle_rise[rows] += speed[:, None]

@@ -228,8 +228,9 @@ def note_pose(
     was = load_deflection(c, state)
     x = state.position[c, 0] - before.x
     z = state.position[c, 2] - before.z
-    short_x = pose.x - before.x - x
-    short_z = pose.z - before.z - z
+    here = sideways(load_vec3(state.position[c]), state.heading[c], -state.sway[c])
+    short_x = pose.x - here.x
+    short_z = pose.z - here.z
     course = pose.heading - pose.aside.heading + command.travel[c]
     way = 0.5 * (state.speed[c] + pose.speed) * dt
     aside = hold_back(
