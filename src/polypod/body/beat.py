@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from polypod.body.particles import HARMONICS, cycle_shape, force_harmonic
 from polypod.compute import kernel
+from polypod.controller.steering import MOST_HURRY
 from polypod.gait.tempo import GRAVITY
 
 # A foot's own particle swings at most so many times as far as a stiff leg would lift the body. In
@@ -117,6 +118,15 @@ def measure_beat(c: int, vault: float, state: Any, tables: Any) -> Beat:
         sway * sway_cosine,
         sway * sway_sine,
     )
+
+
+@kernel
+def ease(c: int, state: Any) -> float:
+    """Return the share of the gait's motion that is left to who gets on badly.
+
+    Whose legs hold it back, on what it climbs over, has none of their reach to spare.
+    """
+    return 1.0 - min(1.0, float(state.hurry[c]) / MOST_HURRY)
 
 
 @kernel

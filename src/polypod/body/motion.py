@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.beat import LEAST_SPREAD, Beat, bounded, gravity_share, measure_beat
+from polypod.body.beat import LEAST_SPREAD, Beat, bounded, ease, gravity_share, measure_beat
 from polypod.body.particles import (
     Orbit,
     Particle,
@@ -23,7 +23,6 @@ from polypod.body.smoothing import follow
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.config import MOTION_PARTICLES, MOTION_SINUSOID, WALKING_VAULT
-from polypod.controller.steering import MOST_HURRY
 from polypod.gait.tempo import GRAVITY
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat
@@ -40,15 +39,6 @@ SWAYING = 0.1
 SWAY_CYCLES = 1.0
 # P1's sinusoid is never larger than this, hip heights.
 LARGEST_BOB = 0.02
-
-
-@kernel
-def ease(c: int, state: Any) -> float:
-    """Return the share of the gait's motion that is left to who gets on badly.
-
-    Whose legs hold it back, on what it climbs over, has none of their reach to spare.
-    """
-    return 1.0 - min(1.0, float(state.hurry[c]) / MOST_HURRY)
 
 
 @kernel

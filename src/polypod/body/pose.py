@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.beat import heave_ahead
+from polypod.body.beat import ease, heave_ahead
 from polypod.body.hull import least_height
 from polypod.body.push import moved_by_push
 from polypod.body.reach import effector_world
@@ -197,7 +197,7 @@ def keep_down(c: int, cycles: float, most: float, state: Any, command: Any) -> N
     against its gait. What is deeper than a steady walk needs passes as quickly as it came.
     """
     state.room[c, 1] += cycles
-    needed = max(most, -STEADY_DEPTH * command.body_height[c])
+    needed = max(most, -STEADY_DEPTH * command.body_height[c] * ease(c, state))
     if needed <= state.room[c, 0]:
         state.room[c, 0] = needed
         state.room[c, 1] = 0.0
