@@ -17,6 +17,8 @@ from polypod.controller.rest import rest_offset
 # once it has landed, or after so many leg pendulum times: then something else is in the way.
 CAUGHT = 0.5
 CAUGHT_IN_AIR = 0.2
+# Where nothing is forbidden feet hang on what the body will soon have left behind, but seldom long.
+CAUGHT_IN_THE_OPEN = 1.5
 LONGEST = 24.0
 # The body goes back by so many leg lengths a pendulum time, up to where the leg is at rest.
 SPEED = 0.25
@@ -50,10 +52,10 @@ def note_caught(c: int, dt: float, state: Any, tables: Any, env: Any) -> None:
         return  # its feet wait for the body to come to them
     most = 1.0
     for k in range(count):
-        if not state.swinging[c, k] and env.forbidden_count == 0:
-            continue
-        cycles = state.waiting[c, k] * state.cycle_rate[c]
-        cycles /= CAUGHT_IN_AIR if state.swinging[c, k] else CAUGHT
+        bound = CAUGHT_IN_AIR if state.swinging[c, k] else CAUGHT
+        if env.forbidden_count == 0:
+            bound = CAUGHT_IN_THE_OPEN if state.swinging[c, k] else math.inf
+        cycles = state.waiting[c, k] * state.cycle_rate[c] / bound
         if cycles > most and not state.reaching[c, k]:
             most = cycles
             state.caught[c] = k + 1
