@@ -95,8 +95,9 @@ def judge(
         touching = max(touching, float(np.mean(leg_room(walk).of_leg < 0.0)))
         gap = (walk.body_position - twin.body_position)[:, [0, 2]] / leg
         farthest = max(farthest, float(np.linalg.norm(gap, axis=1).max()))
-        across = max(across, float(np.abs(gap[-1, 0])))
-        along = max(along, float(np.abs(gap[-1, 1])))
+        # Twins out of step sway apart: the mean of the last second.
+        left = np.abs(gap[walk.time > walk.time[-1] - 1.0].mean(axis=0))
+        across, along = max(across, float(left[0])), max(along, float(left[1]))
         lifted = (walk.foot_stance[:-1] & ~walk.foot_stance[1:]).sum()
         steps = min(steps, int(lifted))
     return Pushed(findings, broken, touching, farthest, across, along, steps)
