@@ -180,7 +180,7 @@ class Command:
         self.arrays.gait_touchdown[creature] = gait.touchdown
         self.arrays.gait_share[creature] = gait.duty_share
         self.arrays.gait_lag[creature] = gait.lag_per_duty
-        self.arrays.gait_vault[creature] = gait.vault
+        self.arrays.gait_vaults[creature] = gait.vaults
         self.arrays.gait_number[creature] += 1
         self.arrays.gait_duty[creature] = (gait.duty, gait.duty_low, gait.duty_high)
         self.arrays.follows[creature] = False

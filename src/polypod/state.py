@@ -92,7 +92,7 @@ class HerdState(NamedTuple):
     gait_share: FloatArray  # [C, K]
     gait_lag: FloatArray  # [C, K]
     gait_duty: FloatArray  # [C, 3]
-    gait_vault: FloatArray  # [C]
+    gait_vaults: BoolArray  # [C]
     sink: FloatArray  # [C] m by which it carries its body lower, to stride longer
     cycles: FloatArray  # [C] cycles walked, where strides vary
     seed: IntArray  # [C] of what varies
@@ -182,7 +182,7 @@ class HerdCommand(NamedTuple):
     gait_share: FloatArray  # [C, K] each foot's duty over the mean duty
     gait_lag: FloatArray  # [C, K] shift of the touchdown per unit of mean duty
     gait_duty: FloatArray  # [C, 3] mean duty at which it was stated, lowest, highest
-    gait_vault: FloatArray  # [C] Alexander's q of upright legs in that gait
+    gait_vaults: BoolArray  # [C] in that gait upright legs vault
     gait_number: IntArray  # [C] counts the changes of gait
     blend_cycles: FloatArray  # [C] cycles in which a transition takes place
     waypoints: FloatArray  # [C, W, 2] x, z
@@ -241,7 +241,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
             "swayed",
             "rung",
             "gait_speed",
-            "gait_vault",
+            "gait_vaults",
             "sink",
             "cycles",
             "seed",
@@ -350,7 +350,7 @@ def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
     shapes: dict[str, tuple[int, ...]] = {
         **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
         **dict.fromkeys(("period", "blend_cycles", "waypoint_count", "gait_number"), (c,)),
-        "gait_vault": (c,),
+        "gait_vaults": (c,),
         **dict.fromkeys(("duty", "follows"), (c,)),
         "spacing": (c, k, 2),
         "reaching": (c, k),

@@ -22,7 +22,7 @@ from polypod.body.particles import (
 from polypod.body.smoothing import follow
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
-from polypod.config import MOTION_PARTICLES, MOTION_SINUSOID, WALKING_VAULT
+from polypod.config import MOTION_PARTICLES, MOTION_SINUSOID, WALKING_VAULT, walking_vault
 from polypod.gait.tempo import GRAVITY
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat
@@ -39,6 +39,8 @@ SWAYING = 0.1
 SWAY_CYCLES = 1.0
 # P1's sinusoid is never larger than this, hip heights.
 LARGEST_BOB = 0.02
+
+vault_of_walk = kernel(walking_vault)
 
 
 @kernel
@@ -67,7 +69,9 @@ def wished_vault(c: int, state: Any, tables: Any, settings: Any) -> float:
     """Return Alexander's q: as set, or what the gait has where legs are upright."""
     if not math.isnan(settings.vaulting):
         return float(settings.vaulting)
-    return float(state.gait_vault[c]) if tables.upright else 0.0
+    if not tables.upright or not state.gait_vaults[c]:
+        return 0.0
+    return float(vault_of_walk(state.duty[c]))
 
 
 @kernel

@@ -23,7 +23,7 @@ from polypod.morphology.types import FloatArray, LegTable
 from polypod.reference import by_reference
 
 # A striding body is at most so much lower than it stands, hip heights.
-DEEPEST_SINK = 0.10
+DEEPEST_SINK = 0.07
 # And takes so many cycles to sink or rise.
 SINK_CYCLES = 1.0
 # A heel is up when its foot lifts, and not much earlier: so much of its rise counts.

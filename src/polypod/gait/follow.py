@@ -15,7 +15,7 @@ import numpy as np
 
 from polypod.compute import kernel
 from polypod.gait.library import FROUDE_HYSTERESIS, gait_ladder, make_gait
-from polypod.gait.pattern import FloatArray
+from polypod.gait.pattern import BoolArray, FloatArray
 from polypod.gait.tempo import froude_number
 from polypod.morphology.types import LegTable
 
@@ -36,7 +36,7 @@ class GaitLadder(NamedTuple):
     share: FloatArray  # [R, K] each foot's duty over the mean duty
     lag: FloatArray  # [R, K] shift of the touchdown per unit of mean duty
     duty: FloatArray  # [R, 3] mean duty at which it was stated, lowest, highest
-    vault: FloatArray  # [R] Alexander's q of upright legs
+    vaults: BoolArray  # [R] the body is highest over its standing feet, if legs are upright
     limit: FloatArray  # [R] Froude number above which the next one is taken; the last is infinite
 
 
@@ -54,7 +54,7 @@ def make_ladder(legs: LegTable) -> GaitLadder:
         share=np.array([gait.duty_share for gait in gaits]),
         lag=np.array([gait.lag_per_duty for gait in gaits]),
         duty=np.array([(gait.duty, gait.duty_low, gait.duty_high) for gait in gaits]),
-        vault=np.array([gait.vault for gait in gaits]),
+        vaults=np.array([gait.vaults for gait in gaits]),
         limit=np.array([*limits, math.inf]),
     )
 
@@ -121,7 +121,7 @@ def take_gait(c: int, rung: int, state: Any, command: Any, tables: Any) -> None:
             state.gait_touchdown[c, k] = ladder.touchdown[rung, k]
             state.gait_share[c, k] = ladder.share[rung, k]
             state.gait_lag[c, k] = ladder.lag[rung, k]
-    state.gait_vault[c] = command.gait_vault[c] if rung == PINNED else ladder.vault[rung]
+    state.gait_vaults[c] = command.gait_vaults[c] if rung == PINNED else ladder.vaults[rung]
     for i in range(3):
         if rung == PINNED:
             state.gait_duty[c, i] = command.gait_duty[c, i]

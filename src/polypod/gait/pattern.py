@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from polypod.config import WALKING_VAULT
+from polypod.config import walking_vault
 from polypod.errors import GaitError, choices
 
 FloatArray = NDArray[np.float64]
@@ -156,9 +156,14 @@ class Gait:
         return np.asarray((1.0 - self.swing_extent) / self.duty)
 
     @property
+    def vaults(self) -> bool:
+        """Whether the body is highest at mid-stance on upright legs: in walks."""
+        return self.family == "walk"
+
+    @property
     def vault(self) -> float:
         """Alexander's q of the body's motion on upright legs: walks vault, all else bounces."""
-        return WALKING_VAULT if self.family == "walk" else 0.0
+        return walking_vault(self.duty) if self.vaults else 0.0
 
     def with_duty(self, duty: float) -> Gait:
         """Return this gait at another mean duty, clamped to the gait's own range.
