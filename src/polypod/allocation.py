@@ -62,6 +62,12 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
             "sinusoid_share",
             "heave",
             "heave_step",
+            "rung",
+            "gait_speed",
+            "gait_vault",
+            "sink",
+            "cycles",
+            "seed",
             "sway",
             "swayed",
             "caught",
@@ -97,6 +103,9 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
                 "swing_begun",
                 "particle_offset",
                 "particle_rise",
+                "gait_touchdown",
+                "gait_share",
+                "gait_lag",
             ),
         ),
         (c, k),
@@ -130,6 +139,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
         "roll_plan": (c, k, 3),
         "spacing": (c, k, 2),
         "deflection": (c, 6),
+        "gait_duty": (c, 3),
         "steered": (c, 15),
         "slope": (c, 2),
         "asked": (c, 4),
@@ -160,12 +170,13 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
 
 
 def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
-    """Return a herd's command, all zero but for the period, which follows speed."""
+    """Return a herd's command, all zero but for period and duty, which follow speed."""
     c, k = count, feet
     shapes: dict[str, tuple[int, ...]] = {
         **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
         **dict.fromkeys(("period", "blend_cycles", "waypoint_count", "gait_number"), (c,)),
         "gait_vault": (c,),
+        **dict.fromkeys(("duty", "follows"), (c,)),
         "spacing": (c, k, 2),
         "reaching": (c, k),
         "reach_place": (c, k, 3),
@@ -175,5 +186,6 @@ def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
     }
     command: HerdCommand = _allocate(HerdCommand, shapes)
     command.period[:] = np.nan
+    command.duty[:] = np.nan
     command.blend_cycles[:] = 1.5
     return command

@@ -80,6 +80,8 @@ class Command:
 
     def __init__(self, arrays: HerdCommand) -> None:
         self.arrays = arrays
+        # What the gait asked for is called, where one was.
+        self.gait_name = np.full(arrays.speed.shape, "", object)
 
     @property
     def period(self) -> Any:
@@ -88,14 +90,28 @@ class Command:
 
     @period.setter
     def period(self, value: ArrayLike | None) -> None:
-        numbers = numbers_of("period", math.nan if value is None else value, "seconds")
-        if np.any(numbers <= 1e-3) or np.any(numbers > 1e3):
-            raise SettingError(f"period is {value!r}; it must be from 0.001 to 1000 s, or None")
+        self._pin("period", value, 1e-3, 1e3, "s")
+
+    @property
+    def duty(self) -> Any:
+        """Mean duty factor [C], kept within the gait's range; NaN where it follows speed."""
+        return self.arrays.duty
+
+    @duty.setter
+    def duty(self, value: ArrayLike | None) -> None:
+        self._pin("duty", value, 0.01, 0.99, "of the cycle")
+
+    def _pin(self, name: str, value: ArrayLike | None, low: float, high: float, unit: str) -> None:
+        numbers = numbers_of(name, math.nan if value is None else value, unit)
+        if np.any(numbers < low) or np.any(numbers > high):
+            raise SettingError(
+                f"{name} is {value!r}; it must be from {low:g} to {high:g} {unit}, or None"
+            )
         try:
-            self.arrays.period[:] = numbers
+            getattr(self.arrays, name)[:] = numbers
         except ValueError:
             raise SettingError(
-                f"period has shape {numbers.shape}; give one number, or one for each creature"
+                f"{name} has shape {numbers.shape}; give one number, or one for each creature"
             ) from None
 
     @property
@@ -149,7 +165,9 @@ class Command:
             raise SettingError(f"foot is {foot!r}; it must be from 0 to {count - 1}")
 
     def set_gait(self, gait: Gait, creature: int | slice = slice(None)) -> None:
-        """Ask for a gait; a walking creature changes to it by P1's rule.
+        """Ask for a gait, whatever the speed; a walking creature changes to it by P1's rule.
+
+        `follow_speed` lets go of it.
 
         Raises:
             SettingError: the gait is for another number of feet.
@@ -160,13 +178,23 @@ class Command:
                 f"gait '{gait.name}' is for {gait.foot_count} feet; this creature has {feet}"
             )
         self.arrays.gait_touchdown[creature] = gait.touchdown
-        self.arrays.gait_share[creature] = (1.0 - gait.swing_extent) / gait.duty
+        self.arrays.gait_share[creature] = gait.duty_share
         self.arrays.gait_lag[creature] = gait.lag_per_duty
         self.arrays.gait_vault[creature] = gait.vault
         self.arrays.gait_number[creature] += 1
         self.arrays.gait_duty[creature] = (gait.duty, gait.duty_low, gait.duty_high)
+        self.arrays.follows[creature] = False
+        self.gait_name[creature] = gait.name
         if not math.isnan(gait.period):
             self.arrays.period[creature] = gait.period
+
+    def follow_speed(self, creature: int | slice = slice(None)) -> None:
+        """Let the gait follow the speed, as it does where none was asked for.
+
+        A period that a gait brought along stays until `period` is set.
+        """
+        self.arrays.follows[creature] = True
+        self.gait_name[creature] = ""
 
     def set_path(self, waypoints: Sequence[Sequence[float]], creature: int) -> None:
         """Ask one creature to walk over waypoints [W, 2] of x, z, and to stop at the last.

@@ -8,6 +8,7 @@ Tuning, by symptom:
 * the body nods or shivers over rubble: raise `height_smoothing`, then `tilt_smoothing`;
 * the body lags behind a climb or hits a crate: lower `height_smoothing`;
 * the creature leans into slopes too much, or its legs do: change `tilt_share`, `upright_lean`;
+* steps look like clockwork: `stride_variation`;
 * turns look like a turret's: lower `turn_rate`; it misses waypoints: raise it;
 * feet hesitate in front of obstacles: raise `wider_search` (costs planning time);
 * creatures of a crowd crowd too much, or too little: raise or lower `personal_space`;
@@ -51,6 +52,13 @@ class Settings:
 
     acceleration: float = 1.6
     """Share of the speed asked for that is gained in a gait cycle."""
+
+    hardest_acceleration: float = 0.5
+    """Greatest change of speed, g: what feet find hold for and transitions between gaits time."""
+
+    stride_variation: float = 0.0
+    """Standard deviation of the strides' durations, a share: 0.02 to 0.04 in animals. Which stride
+    is longer or shorter follows from the world's `seed`."""
 
     turn_rate: float = 0.35
     """Largest turn rate, radians per leg pendulum time sqrt(leg length / g)."""

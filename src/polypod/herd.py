@@ -17,12 +17,14 @@ from polypod.command import Command, numbers_of
 from polypod.config import Settings
 from polypod.controller.lift import WIDEST_SEARCH
 from polypod.controller.spawn import WIDEST_SPAWN
+from polypod.controller.stride import make_stride_table
 from polypod.crowd.avoid import HEEDED
 from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
 from polypod.errors import SettingError
 from polypod.footprints.plan import PlanScratch, make_plan_scratch
 from polypod.footprints.settings import PlanSettings
+from polypod.gait.follow import PINNED, ladder_names, make_ladder
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
 from polypod.morphology.girdles import find_girdles
@@ -94,6 +96,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
     upright = bool(np.mean(legs.upright) > 0.5)
     track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
+    hip_height = max(hip_height, 0.05 * leg_length)
     ik = build_ik_table(legs)
     return HerdTables(
         legs=legs,
@@ -102,9 +105,11 @@ def make_tables(morphology: Morphology) -> HerdTables:
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
-        hip_height=max(hip_height, 0.05 * leg_length),
+        hip_height=hip_height,
         pendulum_time=math.sqrt(leg_length / GRAVITY),
         tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
+        ladder=make_ladder(legs),
+        stride=make_stride_table(legs, ik, hip_height),
         track=track * (1.0 if upright else SPRAWLING_TRACK),
         # Two feet do not tell the slope of the ground ahead, nor what is level on it.
         level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,
@@ -225,6 +230,17 @@ class Herd:
     def count(self) -> int:
         """How many creatures there are."""
         return int(self.state.heading.shape[0])
+
+    @cached_property
+    def ladder(self) -> tuple[str, ...]:
+        """Names of the gaits that follow speed, from slow to fast; `state.rung` counts them."""
+        return ladder_names(self.tables.legs)
+
+    @property
+    def gait_name(self) -> tuple[str, ...]:
+        """Name of the gait that each creature walks in, or is changing to."""
+        pairs = zip(self.state.rung, self.command.gait_name, strict=True)
+        return tuple(name if rung == PINNED else self.ladder[rung] for rung, name in pairs)
 
     @property
     def follows(self) -> bool:

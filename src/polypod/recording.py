@@ -29,6 +29,7 @@ def add_frame(recorder: Recorder, world: World, herd: Herd, creature: int) -> No
         environment.places(),
         environment.rotations,
         int(state.activity[creature]),
+        herd.gait_name[creature],
     )
 
 

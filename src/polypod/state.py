@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from polypod.gait.follow import GaitLadder
 from polypod.morphology.girdles import Girdles
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
 from polypod.paths.curve import PathRow
@@ -40,6 +41,8 @@ class HerdTables(NamedTuple):
     level_weight: float  # how much a foot prefers to land where the others stand
     recovery: float  # 1/s, of the spring that brings a pushed body back to its path
     tilt_scale: float  # how much of the feet's slope the trunk can take: less on two legs
+    ladder: GaitLadder  # the gaits it takes by itself, from slow to fast
+    stride: Any  # polypod.controller.stride.StrideTable
 
 
 class HerdState(NamedTuple):
@@ -79,6 +82,16 @@ class HerdState(NamedTuple):
     duty: FloatArray  # [C] mean duty factor of the destination gait, following speed
     blend_left: FloatArray  # [C] cycles left of a transition between gaits
     gait_number: IntArray  # [C] of the command's gait that the transition is to
+    rung: IntArray  # [C] row in the ladder of the gait that follows the speed, -1: it is pinned
+    gait_speed: FloatArray  # [C] m/s, the speed by which that is chosen
+    gait_touchdown: FloatArray  # [C, K] the gait it walks in, as the command states one
+    gait_share: FloatArray  # [C, K]
+    gait_lag: FloatArray  # [C, K]
+    gait_duty: FloatArray  # [C, 3]
+    gait_vault: FloatArray  # [C]
+    sink: FloatArray  # [C] m by which it carries its body lower, to stride longer
+    cycles: FloatArray  # [C] cycles walked, where strides vary
+    seed: IntArray  # [C] of what varies
     least_down: IntArray  # [C] fewest feet that must stand at any moment
     swinging: BoolArray  # [C, K] the foot is off the ground
     airborne: FloatArray  # [C, K] s since it lifted
@@ -159,7 +172,9 @@ class HerdCommand(NamedTuple):
     reaching: BoolArray  # [C, K] take the leg out of the gait and send its foot to a place
     reach_place: FloatArray  # [C, K, 3] that place, world, m
     period: FloatArray  # [C] s a cycle, NaN: from speed and morphology
-    gait_touchdown: FloatArray  # [C, K] the destination gait: phase of each foot's touchdown
+    duty: FloatArray  # [C] mean duty factor, NaN: from speed and morphology
+    follows: BoolArray  # [C] the gait follows the speed; else it is this one:
+    gait_touchdown: FloatArray  # [C, K] phase of each foot's touchdown
     gait_share: FloatArray  # [C, K] each foot's duty over the mean duty
     gait_lag: FloatArray  # [C, K] shift of the touchdown per unit of mean duty
     gait_duty: FloatArray  # [C, 3] mean duty at which it was stated, lowest, highest

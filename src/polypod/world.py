@@ -21,7 +21,8 @@ from polypod.environment.tiled import TiledTerrain
 from polypod.errors import SettingError
 from polypod.frame import step_creatures
 from polypod.gait.advance import destination_disks
-from polypod.gait.library import default_gait, make_gait
+from polypod.gait.follow import PINNED, take_gait
+from polypod.gait.library import make_gait, own_duty
 from polypod.gait.needle import minimum_feet_down
 from polypod.gait.pattern import Gait
 from polypod.herd import Herd
@@ -33,12 +34,14 @@ LONGEST_STEP = 1.0
 
 
 @kernel
-def set_disks(c: int, phase: float, state: Any, command: Any) -> None:
+def set_disks(c: int, phase: float, duty: float, state: Any, command: Any, tables: Any) -> None:
     """Give a creature that has not walked yet the disks of its gait, and its needle a place."""
-    state.duty[c] = command.gait_duty[c, 0]
+    state.duty[c] = duty
     state.gait_number[c] = command.gait_number[c]
-    destination_disks(c, command, state.duty[c], state.goal_start[c], state.goal_extent[c])
-    destination_disks(c, command, state.duty[c], state.swing_start[c], state.swing_extent[c])
+    state.rung[c] = 0 if command.follows[c] else PINNED
+    take_gait(c, state.rung[c], state, command, tables)
+    destination_disks(c, state, state.duty[c], state.goal_start[c], state.goal_extent[c])
+    destination_disks(c, state, state.duty[c], state.swing_start[c], state.swing_extent[c])
     state.least_down[c] = minimum_feet_down(state.swing_start[c], state.swing_extent[c])
     state.needle[c] = phase
     for k in range(state.stood.shape[1]):
@@ -63,6 +66,7 @@ class World:
         obstacles: what stands on the terrain, where `place` is a terrain.
         threads: how many threads may step creatures; all cores where omitted. Results do not
             depend on it, to the last bit.
+        seed: of what varies from stride to stride, where settings ask for that.
     """
 
     def __init__(
@@ -71,7 +75,10 @@ class World:
         obstacles: Sequence[Obstacle] = (),
         *,
         threads: int | None = None,
+        seed: int = 0,
     ) -> None:
+        if not isinstance(seed, int | np.integer) or not 0 <= seed < 2**31:
+            raise SettingError(f"seed is {seed!r}; it must be a whole number from 0 to {2**31 - 1}")
         if not isinstance(place, Environment):
             place = Environment(place, obstacles)
         # Another world may have left it at a later time.
@@ -82,6 +89,7 @@ class World:
         self._meet()
         self.time = 0.0
         self._pushes: list[Push] = []
+        self.seed = int(seed)
         self.threads = thread_count() if threads is None else max(1, int(threads))
 
     def add(
@@ -102,7 +110,7 @@ class World:
             count: how many.
             position: [count, 2] or [2]: x, z, m; in rows beside each other where omitted.
             heading: rad about +Y from +Z toward +X, one number or [count].
-            gait: a gait or its name; what fits legs and speed where omitted.
+            gait: a gait or its name, kept at any speed; where omitted the gait follows the speed.
             speed: m/s, asked for from the first step on.
             settings: how they are controlled.
 
@@ -126,13 +134,15 @@ class World:
         herd.state.position[:, 2] = points[:, 1]
         herd.state.heading[:] = herd.command.heading
         self.environment.load_ground(herd.state.position[:, [0, 2]], herd.sight(0.0))
-        chosen = self._gait(herd, gait, float(np.max(herd.command.speed)))
-        herd.command.set_gait(chosen)
+        herd.state.seed[:] = self.seed
+        chosen = self._gait(herd, gait)
         for c in range(count):
             # A golden-angle offset, so that the creatures of a herd are not in step.
             # Just before a lift-off: at it, rounding would decide which frame the foot leaves in.
             phase = (chosen.standing_phase - 1e-6 + c * 0.618033988749895) % 1.0
-            set_disks(c, phase, herd.kernel_state, herd.kernel_command)
+            set_disks(
+                c, phase, chosen.duty, herd.kernel_state, herd.kernel_command, herd.kernel_tables
+            )
             if not self._spawn(herd, c):
                 x, z = points[c]
                 raise SettingError(
@@ -183,14 +193,19 @@ class World:
             pose_joints(c, herd.kernel_state, herd.kernel_tables, scratch)
         return fits
 
-    def _gait(self, herd: Herd, gait: Gait | str | None, speed: float) -> Gait:
-        if isinstance(gait, Gait):
-            return gait
+    def _gait(self, herd: Herd, gait: Gait | str | None) -> Gait:
+        """Ask for a herd's gait, or that it follows speed; return the one it starts in."""
         legs = herd.tables.legs
-        if gait is not None:
-            return make_gait(gait, legs.side, legs.row)
-        size = herd.tables.hip_height if herd.tables.upright else herd.tables.leg_length
-        return default_gait(legs.side, legs.row, legs.upright, speed * speed / (9.81 * size))
+        if gait is None:
+            herd.command.follow_speed()
+            speed = float(np.max(herd.command.speed))
+            size = herd.tables.hip_height if herd.tables.upright else herd.tables.leg_length
+            duty = own_duty(herd.ladder[0], legs.upright, speed * speed / (9.81 * size))
+            return make_gait(herd.ladder[0], legs.side, legs.row, duty)
+        if not isinstance(gait, Gait):
+            gait = make_gait(gait, legs.side, legs.row)
+        herd.command.set_gait(gait)
+        return gait
 
     def push_at(
         self, time: float, velocity: ArrayLike, creature: int = 0, *, at: float = 0.0

@@ -43,6 +43,7 @@ def ask(env, start, preferred, leg=LEG, stride=STRIDE, side=1.0, **changes):
         hip_touchdown=hip,
         hip_end_of_stance=hip + ahead,
         effector_offset_touchdown=Vec3(0.0, 0.0, 0.0),
+        effector_offset_end_of_stance=Vec3(0.0, 0.0, 0.0),
         reach_min=0.15 * leg,
         reach_max=0.97 * leg,
         reach_comfort_max=0.9 * leg,

@@ -40,7 +40,7 @@ def turned(request, heading, shift, mirror=False):
         "hip_end_of_stance",
         "body_position",
     )
-    offsets = ("effector_offset_touchdown",)
+    offsets = ("effector_offset_touchdown", "effector_offset_end_of_stance")
     arrows = ("start_velocity", *offsets, "side")
     moved = {name: place(getattr(request, name)) for name in points}
     moved |= {name: arrow(getattr(request, name)) for name in arrows}

@@ -214,6 +214,7 @@ def walk(seconds=4.0, fps=30, bob=0.004, obstacle_count=0, edit=None) -> Recordi
         recorder.add(
             time, centre, [0, 0, 0, 1], position, rotation, soles, targets, stance, support,
             np.zeros((obstacle_count, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (obstacle_count, 1)), 0,
+            "tripod",
         )  # fmt: skip
     return recorder.finish()
 

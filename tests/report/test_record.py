@@ -32,6 +32,7 @@ SHAPES = {
     "obstacle_position": ("<f8", (F, O, 3)),
     "obstacle_rotation": ("<f8", (F, O, 4)),
     "activity": ("<i8", (F,)),
+    "gait": ("<U6", (F,)),
 }
 
 

@@ -262,6 +262,7 @@ def random_walk(morphology: Morphology, frames: int = 40, far: float = 20.0) -> 
         obstacle_position=np.zeros((*obstacles, 3)),
         obstacle_rotation=np.zeros((*obstacles, 4)),
         activity=np.zeros(feet[0], np.int64),
+        gait=np.full(feet[0], "trot"),
     )
 
 

@@ -31,7 +31,7 @@ def _at_rest(herd: Herd) -> None:
 
 def step(herd: Herd, pose: PlanPose, dt: float) -> PlanPose:
     tables, settings = herd.kernel_tables, herd.kernel_settings
-    return steer(pose, 0, herd.kernel_state, herd.kernel_command, tables, settings, dt)
+    return steer(pose, 0, herd.kernel_state, herd.kernel_command, tables, settings, dt, 1.0)
 
 
 def ahead(herd: Herd, pose: PlanPose, seconds: float) -> PlanPose:

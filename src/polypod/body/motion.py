@@ -42,7 +42,7 @@ LARGEST_BOB = 0.02
 
 
 @kernel
-def adopt_motion(c: int, beat: Beat, state: Any, command: Any, tables: Any, settings: Any) -> None:
+def adopt_motion(c: int, beat: Beat, state: Any, tables: Any, settings: Any) -> None:
     """Let the bounce's strength and shape follow gait, speed and settings."""
     follows = 1.0 - math.exp(-state.turn[c] / ADOPT_CYCLES)
     period = 1.0 / state.cycle_rate[c]
@@ -58,16 +58,16 @@ def adopt_motion(c: int, beat: Beat, state: Any, command: Any, tables: Any, sett
         sinusoid = settings.bounce
     state.gravity_share[c] += (bounce - state.gravity_share[c]) * follows
     state.sinusoid_share[c] += (sinusoid - state.sinusoid_share[c]) * follows
-    vault = wished_vault(c, command, tables, settings)
+    vault = wished_vault(c, state, tables, settings)
     state.vault[c] += (vault - state.vault[c]) * follows
 
 
 @kernel
-def wished_vault(c: int, command: Any, tables: Any, settings: Any) -> float:
+def wished_vault(c: int, state: Any, tables: Any, settings: Any) -> float:
     """Return Alexander's q: as set, or what the gait has where legs are upright."""
     if not math.isnan(settings.vaulting):
         return float(settings.vaulting)
-    return float(command.gait_vault[c]) if tables.upright else 0.0
+    return float(state.gait_vault[c]) if tables.upright else 0.0
 
 
 @kernel
@@ -206,7 +206,7 @@ def move_trunk(c: int, dt: float, state: Any, command: Any, tables: Any, setting
     vault = state.vault[c]
     if state.cycle_rate[c] > 0.0:
         beat = measure_beat(c, vault, state, tables)
-        adopt_motion(c, beat, state, command, tables, settings)
+        adopt_motion(c, beat, state, tables, settings)
     else:
         # Who sets out begins without a bounce, and it grows with speed.
         state.gravity_share[c] = 0.0

@@ -13,7 +13,9 @@ from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane, body_rotation
 from polypod.compute import kernel
 from polypod.controller.rest import rest_offset
+from polypod.controller.roll import rise_at_lift
 from polypod.controller.steering import PlanPose, predict
+from polypod.controller.stride import stance_centre
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface
 from polypod.math.intervals import wrap_phase
@@ -42,10 +44,13 @@ LATE = 0.1
 
 @kernel
 def highest_over(
-    k: int, place: Vec3, foot_turn: Quat, pose: PlanPose, turn: Quat, tables: Any
+    k: int, place: Vec3, foot_turn: Quat, bend: float, pose: PlanPose, turn: Quat, tables: Any
 ) -> float:
-    """Return the greatest height of the body at which a leg reaches a place for its sole."""
-    ankle = effector_world(k, tables, place, foot_turn, 0.0)
+    """Return the greatest height of the body at which a leg reaches a place for its sole.
+
+    `bend` is how far its heel is up there, rad.
+    """
+    ankle = effector_world(k, tables, place, foot_turn, bend)
     hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
     reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
     dx = pose.x + hip.x - ankle.x
@@ -77,8 +82,10 @@ def highest(
             place = place - Vec3(x, 0.0, math.cos(course) * way + push_z)
         elif state.waiting[c, k] > 0.0:
             wish = load_vec3(state.wish[c, k])
-            deep = min(deep, highest_over(k, wish, foot_turn, pose, turn, tables) - base)
-        shallow = min(shallow, highest_over(k, place, foot_turn, pose, turn, tables) - base)
+            deep = min(deep, highest_over(k, wish, foot_turn, 0.0, pose, turn, tables) - base)
+        bend = 0.0 if state.swinging[c, k] else state.foot_bend[c, k, 0]
+        over = highest_over(k, place, foot_turn, bend, pose, turn, tables)
+        shallow = min(shallow, over - base)
     height = command.body_height[c]
     return min(max(shallow, -SHALLOW * height), max(deep, -DEEP * height))
 
@@ -122,7 +129,9 @@ def highest_soon(
                 continue
             place = load_vec3(state.foot[c, k])
             foot_turn = load_quat(state.foot_rotation[c, k])
-            over = highest_over(k, place, foot_turn, later, turn, tables)
+            # Where its leg is stretched, its heel has risen.
+            bend = rise_at_lift(c, k, state, command, tables)
+            over = highest_over(k, place, foot_turn, bend, later, turn, tables)
             most = min(most, over - base - rise)
     return max(most, -SHALLOW * command.body_height[c])
 
@@ -143,14 +152,16 @@ def highest_ahead(
     most = math.inf
     for k in range(state.swinging.shape[1]):
         stance = cycle * (1.0 - state.goal_extent[c, k])
-        half = 0.5 * there.speed * cycle * (1.0 - state.goal_extent[c, k])
+        way = there.speed * stance
+        centre = stance_centre(c, k, way * math.cos(command.travel[c]), state, tables)
+        half = 0.5 * way
         push_x, push_z = moved_by_push(there.aside, tables.recovery, 0.5 * stance)
         offset = rest_offset(c, k, there.heading, state, tables, settings)
-        x = there.x + offset.x + math.sin(course) * half + push_x
-        z = there.z + offset.z + math.cos(course) * half + push_z
+        x = there.x + offset.x + math.sin(course) * half + math.sin(there.heading) * centre + push_x
+        z = there.z + offset.z + math.cos(course) * half + math.cos(there.heading) * centre + push_z
         y, _ = surface(env, x, z)
         foot_turn = load_quat(state.foot_rotation_target[c, k])
-        over = highest_over(k, Vec3(x, y, z), foot_turn, there, turn, tables)
+        over = highest_over(k, Vec3(x, y, z), foot_turn, 0.0, there, turn, tables)
         most = min(most, over - base - rise)
     return max(most, -DEEP * command.body_height[c])
 
@@ -210,7 +221,7 @@ def wished_height(
     """
     cycle = cycle_seconds(c, state, tables)
     seconds = settings.height_smoothing * cycle
-    base = plane.height + command.body_height[c]
+    base = plane.height + command.body_height[c] - state.sink[c]
     base -= rise_along(pose, state.position[c, 0], state.position[c, 2], plane)
     ahead = abs(state.speed[c]) * seconds
     least = least_height(c, state, tables, env, state.tilt[c, 0, 0], ahead, scratch.hull)

@@ -64,6 +64,15 @@ def shift_as_it_is(
 
 
 @kernel
+def may_drag(c: int, state: Any) -> bool:
+    """Return whether a body takes feet in the air along that fall behind: in gaits with flights.
+
+    Nothing holds it back there, and a body that waits in mid-air looks odd.
+    """
+    return bool(state.least_down[c] == 0)
+
+
+@kernel
 def body_within_reach(
     c: int, state: Any, tables: Any, scratch: Any, position: Vec3, turn: Quat
 ) -> Vec3:
@@ -86,6 +95,8 @@ def body_within_reach(
             if attempt == 0:
                 state.pull[c, k] = size
             pull = EARLY_PULL if scratch.progress[k] < EARLY else LATE_PULL
+            if scratch.progress[k] < EARLY and may_drag(c, state):
+                pull = 0.0
             if state.swinging[c, k] and size > pull * tables.leg_length:
                 continue
             if size > tolerance:

@@ -11,7 +11,9 @@ from polypod.controller.align import aligned_turn, ground_normal_under
 from polypod.controller.errand import Errand
 from polypod.controller.others import gather_other_legs, look_ahead
 from polypod.controller.rest import body_height_at, hip_at, level_height, rest_offset
+from polypod.controller.roll import rise_at_lift
 from polypod.controller.steering import PlanPose, predict
+from polypod.controller.stride import stance_centre
 from polypod.crowd.legs import add_company
 from polypod.environment.placing import own_point
 from polypod.environment.table import surface_at
@@ -44,12 +46,17 @@ def preferred_footprint(
     """Return where a foot would land on the plan, `touchdown` seconds ahead (P1 3.2, Fig 4a).
 
     The rest place carried by the body as predicted for the middle of the coming stance: that is
-    the pose at touchdown plus half of the stance's travel along the predicted arc.
+    the pose at touchdown plus half of the stance's travel along the predicted arc; and as far ahead
+    or behind as lets the leg reach both ends of that.
     """
     stance = stance_seconds(c, k, state)
     middle = predict(pose, touchdown + 0.5 * stance, c, state, command, tables, settings)
     offset = rest_offset(c, k, middle.heading, state, tables, settings)
-    return Vec3(middle.x + offset.x, state.foot[c, k, 1], middle.z + offset.z)
+    way = middle.speed * math.cos(command.travel[c]) * stance
+    ahead = stance_centre(c, k, way, state, tables)
+    x = middle.x + offset.x + math.sin(middle.heading) * ahead
+    z = middle.z + offset.z + math.cos(middle.heading) * ahead
+    return Vec3(x, state.foot[c, k, 1], z)
 
 
 @kernel
@@ -90,6 +97,7 @@ def plan_foot(
         others = add_company(
             c, k, others, start, preferred, touchdown, errand.radius, state, tables, scratch
         )
+    rise = rise_at_lift(c, k, state, command, tables)
     found = False
     attempts = len(STEP_SHARES) if env.mover_count > 0 else len(STEP_SHARES) - 1
     for attempt in range(attempts):
@@ -101,6 +109,7 @@ def plan_foot(
             hip,
             hip_at(c, k, leaving, state, tables),
             effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn, 0.0),
+            effector_world(k, tables, Vec3(0.0, 0.0, 0.0), turn, rise),
             tables.ik.shortest[k],
             tables.ik.longest[k],
             tables.ik.comfortable[k],

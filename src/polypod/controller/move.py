@@ -9,6 +9,7 @@ from polypod.body.push import hold_back, is_pushed, load_deflection, moved_aside
 from polypod.compute import kernel
 from polypod.controller.balance import brace
 from polypod.controller.course import choose_course
+from polypod.controller.propulsion import propulsion
 from polypod.controller.retreat import note_caught, way_back
 from polypod.controller.steering import PlanPose, plan_pose, steer
 from polypod.crowd.avoid import FORESIGHT, apart_from, list_neighbours, note_yielding
@@ -67,7 +68,8 @@ def move_body(
     if state.caught[c] > 0:
         state.pace[c] = 0.0
     here = plan_pose(c, state)
-    pose = steer(here, c, state, command, tables, settings, dt)
+    driven = propulsion(c, state, scratch)
+    pose = steer(here, c, state, command, tables, settings, dt, driven)
     shift_x, shift_z = feedback(c, state, tables, settings)
     shift_x += back_x
     shift_z += back_z

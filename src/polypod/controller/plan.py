@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from polypod.body.reach import may_drag
 from polypod.compute import kernel
 from polypod.controller.balance import foot_to_catch_with, is_due
 from polypod.controller.feet import plan_foot, preferred_footprint
@@ -30,7 +31,20 @@ from polypod.controller.swing import (
     wishes_new_plan,
 )
 from polypod.crowd.legs import is_taken
-from polypod.gait.needle import lift_phase, next_foot_to_lift
+from polypod.gait.needle import lift_phase, next_foot_to_lift, swing_progress
+
+# A foot over a place that its leg does not reach is sent elsewhere after so many cycles.
+OUT_OF_REACH = 0.03
+
+
+@kernel
+def hastens(c: int, k: int, state: Any) -> bool:
+    """Return whether a foot should be down already, in a gait with flights: it keeps its plan.
+
+    Planned anew and anew for a body that waits for nothing, it would never land.
+    """
+    gone = swing_progress(state.needle[c], state.swing_start[c, k], state.swing_extent[c, k])
+    return bool(may_drag(c, state) and gone < 0.0)
 
 
 @kernel
@@ -49,7 +63,12 @@ def plan_feet(
         blocked = env.mover_count > 0 and way_blocked(c, k, state, tables, env)
         blocked = blocked or is_held_up(c, k, state)
         blocked = blocked or (state.crowded[c] and is_taken(c, k, state, tables, scratch))
-        if state.swing_progress[c, k] > settings.replan_until and not blocked:
+        # A foot that was dragged along may not get to where it was to land.
+        late = state.waiting[c, k] * state.cycle_rate[c]
+        blocked = blocked or (may_drag(c, state) and late > OUT_OF_REACH)
+        if not blocked and (
+            state.swing_progress[c, k] > settings.replan_until or hastens(c, k, state)
+        ):
             continue
         left = swing_time_left(c, k, state)
         preferred = preferred_footprint(c, k, pose, left, state, command, tables, settings)

@@ -70,6 +70,17 @@ def stride_share(length: float, leg_length: float) -> float:
 
 
 @kernel
+def rise_at_lift(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
+    """Return how far a foot's heel is up when it lifts off, by the stride of its present disk."""
+    if state.cycle_rate[c] <= 0.0:
+        return 0.0
+    duty = 1.0 - state.swing_extent[c, k]
+    way = state.speed[c] * math.cos(command.travel[c]) * duty / state.cycle_rate[c]
+    rise: float = HEEL_RISE[tables.legs.roll_kind[k]] * stride_share(way, tables.legs.length[k])
+    return rise
+
+
+@kernel
 def heel_target(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
     """Return how far a standing foot's heel should be up, by how much of its stance is over."""
     kind = tables.legs.roll_kind[k]
@@ -80,11 +91,10 @@ def heel_target(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
     stood = wrap_phase(state.needle[c] - state.swing_start[c, k] - state.swing_extent[c, k])
     # A foot that is still down in its swing sector stays up on its toes.
     share = 1.0 if stood >= duty else stood / duty
-    way = state.speed[c] * math.cos(command.travel[c]) * duty / rate
     rise = max(0.0, share - RISE_FROM[kind]) / (1.0 - RISE_FROM[kind])
     # One that has just landed out of turn stands first.
     settled = min(1.0, state.stood[c, k] / (0.5 * duty))
-    whole: float = settled * HEEL_RISE[kind] * stride_share(way, tables.legs.length[k])
+    whole: float = settled * rise_at_lift(c, k, state, command, tables)
     return whole * rise * rise * (3.0 - 2.0 * rise)
 
 

@@ -12,6 +12,7 @@ from polypod.body.reach import (
     TOLERANCE,
     body_within_reach,
     foot_shift,
+    may_drag,
     pitched,
     shift_as_it_is,
 )
@@ -165,7 +166,8 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
     """Return whether every foot is within reach of a body pose, swinging ones as far as they may.
 
     A swinging foot goes on along its path if its leg can follow, and a standing one rolls on. Else
-    they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved.
+    they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved. In
+    gaits with flights the body does not wait for swinging feet: see `dragged`.
     """
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
@@ -176,7 +178,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
         bend = scratch.bend[k, 0]
         shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
-        if length(shift) <= 2.0 * tolerance:
+        if length(shift) <= 2.0 * tolerance or (state.swinging[c, k] and may_drag(c, state)):
             continue
         if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
             return False
@@ -186,6 +188,23 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         if length(shift) > 2.0 * tolerance:
             return False
     return True
+
+
+@kernel
+def dragged(c: int, k: int, sole: Vec3, state: Any, tables: Any, scratch: Any) -> Vec3:
+    """Return where a swinging foot gets whose body does not wait for it, world.
+
+    As near to its place on its path as its leg reaches: a foot that has just lifted falls behind
+    its body.
+    """
+    position = load_vec3(state.position[c])
+    foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
+    bend = scratch.bend[k, 0]
+    turn = load_quat(state.rotation[c])
+    shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+    if length(shift) <= 2.0 * TOLERANCE * tables.leg_length:
+        return sole
+    return sole + shift
 
 
 @kernel
@@ -268,7 +287,15 @@ def advance_swings(
                 here = here + shift_as_it_is(c, k, here, state, tables, position, turn)
                 store_vec3(state.foot[c, k], here)
             continue
-        state.waiting[c, k] = 0.0
+        late = 0.0
+        if may_drag(c, state):
+            near = dragged(c, k, sole, state, tables, scratch)
+            if near != sole and scratch.progress[k] >= NEARLY_DOWN:
+                # Its place is out of reach, and no place to land: another is looked for soon.
+                scratch.progress[k] = NEARLY_DOWN
+                late = state.waiting[c, k] + dt
+            sole = near
+        state.waiting[c, k] = late
         state.swing_progress[c, k] = scratch.progress[k]
         store_vec3(state.foot[c, k], sole)
         store_quat(state.foot_rotation[c, k], load_quat(scratch.turn[k]))

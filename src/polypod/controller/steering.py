@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from polypod.body.push import Deflection, hold_back, load_deflection, recover, store_deflection
 from polypod.compute import kernel
+from polypod.gait.tempo import GRAVITY
 from polypod.math.vec3 import Vec3, load_vec3
 from polypod.routes.aim import next_aim, way_left
 
@@ -64,19 +65,22 @@ def acceleration_limit(c: int, speed: float, command: Any, tables: Any, settings
     """
     slowest = 0.1 * tables.leg_length / tables.pendulum_time
     most = max(abs(speed), command.speed[c], slowest)
-    return settings.acceleration * most / (CYCLE * tables.pendulum_time)
+    share: float = settings.acceleration * most / (CYCLE * tables.pendulum_time)
+    return min(share, settings.hardest_acceleration * GRAVITY)
 
 
 @kernel
 def steer(
-    pose: PlanPose, c: int, state: Any, command: Any, tables: Any, settings: Any, dt: float
-) -> PlanPose:
+    pose: PlanPose, c: int, state: Any, command: Any, tables: Any, settings: Any, dt: float,
+    propulsion: float,
+) -> PlanPose:  # fmt: skip
     """Return the pose on the plane `dt` seconds later.
 
     The turn rate approaches what removes the error of heading, and the speed what was asked for,
     within bounds that scale with the animal; it stops at the last waypoint. All that is about the
     path; what a push led the body off it dies away beside. Of the state it reads the way that is
-    known.
+    known. `propulsion` scales the bound of changes of speed: 1 is the mean over a cycle. Only who
+    would overrun the end of its way brakes without it.
     """
     on_x = pose.x - pose.aside.x
     on_z = pose.z - pose.aside.z
@@ -89,6 +93,7 @@ def steer(
     speed_asked = command.speed[c] * pose.pace
     waypoint = pose.waypoint
     corner = pose.corner
+    stop = math.inf
     if command.waypoint_count[c] > 0:
         aim = next_aim(on_x, on_z, int(pose.waypoint), int(pose.corner), c, state, command, tables)
         waypoint = float(aim.waypoint)
@@ -109,6 +114,7 @@ def steer(
             left = 0.0
         if not aim.stops:
             left = way_left(on_x, on_z, aim, c, state, command)
+        stop = left
         speed_asked = min(speed_asked, math.sqrt(acceleration * left), left / dt)
     error = wrapped(heading_asked + pose.detour - on_heading)
     # Who must turn far turns first: full speed would circle round the place it is to go to.
@@ -119,8 +125,12 @@ def steer(
     turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (
         1.0 - math.exp(-4.0 * dt / response)
     )
-    change = acceleration * dt
-    speed = pose.speed + min(change, max(-2.0 * change, speed_asked - pose.speed))
+    gain = propulsion * acceleration * dt
+    braking = min(2.0 * acceleration, settings.hardest_acceleration * GRAVITY) * dt
+    loss = propulsion * braking
+    if pose.speed * pose.speed > 2.0 * acceleration * stop:
+        loss = max(loss, braking)
+    speed = pose.speed + min(gain, max(-loss, speed_asked - pose.speed))
     heading = wrapped(on_heading + turn_rate * dt + aside.heading)
     course = on_heading + 0.5 * turn_rate * dt + travel
     advance = 0.5 * (pose.speed + speed) * dt
@@ -201,7 +211,7 @@ def predict(
     if dt < 1e-9:
         return pose
     for _ in range(PREDICTION_STEPS):
-        pose = steer(pose, c, state, command, tables, settings, dt)
+        pose = steer(pose, c, state, command, tables, settings, dt, 1.0)
     return pose
 
 

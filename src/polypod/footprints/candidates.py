@@ -90,6 +90,7 @@ def list_cells(
     leg = request.leg_length
     wanted = request.preferred_world
     offset = request.effector_offset_touchdown
+    leaving_offset = request.effector_offset_end_of_stance
     foot = max(request.foot_half_x, request.foot_half_z)
     tolerance = settings.uneven * leg + settings.uneven_foot * foot + settings.slope * 1.5 * cell
     first_row = max(int((wanted.z - request.search_radius - window.place[1]) / cell), 0)
@@ -108,9 +109,9 @@ def list_cells(
             away = math.hypot(point.x - wanted.x, point.z - wanted.z)
             if away > request.search_radius:
                 continue
-            effector = Vec3(point.x, high, point.z) + offset
-            landing = distance(effector, request.hip_touchdown)
-            leaving = distance(effector, request.hip_end_of_stance)
+            place = Vec3(point.x, high, point.z)
+            landing = distance(place + offset, request.hip_touchdown)
+            leaving = distance(place + leaving_offset, request.hip_end_of_stance)
             stretch = max(landing, leaving) - request.reach_comfort_max
             if landing > request.reach_max + cell:
                 continue

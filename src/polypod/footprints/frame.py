@@ -78,6 +78,7 @@ def request_in(frame: FootFrame, request: StepRequest) -> StepRequest:
         place_in(frame, request.hip_touchdown),
         place_in(frame, request.hip_end_of_stance),
         turn_in(frame, request.effector_offset_touchdown),
+        turn_in(frame, request.effector_offset_end_of_stance),
         request.reach_min,
         request.reach_max,
         request.reach_comfort_max,

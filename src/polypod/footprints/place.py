@@ -106,7 +106,7 @@ def reach_score(settings: PlanSettings, request: StepRequest, place: Vec3) -> fl
     landing = distance(effector, request.hip_touchdown)
     if landing > request.reach_max or landing < request.reach_min:
         return REJECTED
-    leaving = distance(effector, request.hip_end_of_stance)
+    leaving = distance(place + request.effector_offset_end_of_stance, request.hip_end_of_stance)
     if leaving > request.reach_max or leaving < request.reach_min:
         return 0.0
     stretch = max(landing, leaving) - request.reach_comfort_max

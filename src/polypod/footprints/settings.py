@@ -106,6 +106,7 @@ class StepRequest(NamedTuple):
     effector_offset_touchdown: (
         Vec3  # sole + offset = effector, whose distance to the hip is limited
     )
+    effector_offset_end_of_stance: Vec3  # the same when the heel has risen to lift off
     reach_min: float  # m, effector to hip
     reach_max: float
     reach_comfort_max: float

@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from polypod.controller.stride import StrideTable
 from polypod.errors import GaitError, SettingError
-from polypod.gait.advance import travel_limit
+from polypod.gait.advance import stride_of
 from polypod.gait.pattern import BoolArray, FloatArray, Gait, IntArray
-from polypod.gait.tempo import comfortable_speed, tempo
+from polypod.gait.tempo import comfortable_speed
 from polypod.morphology.types import Morphology
 from polypod.reference import by_reference
 
@@ -37,13 +38,6 @@ class FeetTable(NamedTuple):
     sole_stance: FloatArray
 
 
-class TravelTable(NamedTuple):
-    """What kernels of the gait read of the legs' reach; as in `IkTable`."""
-
-    stance_travel: FloatArray
-    stance_travel_least: FloatArray
-
-
 class Stepping(NamedTuple):
     """A gait as a creature steps it at a speed."""
 
@@ -61,7 +55,7 @@ class Build:
         leg_length: m, the mean from hip to sole.
         upright: most legs stand below their hips.
         legs: places and sides of the feet.
-        travel: how far feet may travel while they stand.
+        stride: how far feet may travel while they stand.
         foot_name: [K] empty where a foot has none.
     """
 
@@ -70,7 +64,7 @@ class Build:
     leg_length: float
     upright: bool
     legs: FeetTable
-    travel: TravelTable
+    stride: StrideTable
     foot_name: tuple[str, ...]
 
     @classmethod
@@ -79,14 +73,14 @@ class Build:
         from polypod.herd import make_tables
 
         tables = make_tables(morphology)
-        legs, ik = tables.legs, tables.ik
+        legs = tables.legs
         return cls(
             name=morphology.name,
             hip_height=tables.hip_height,
             leg_length=tables.leg_length,
             upright=tables.upright,
             legs=FeetTable(legs.length, legs.upright, legs.side, legs.row, legs.sole_stance),
-            travel=TravelTable(ik.stance_travel, ik.stance_travel_least),
+            stride=tables.stride,
             foot_name=morphology.foot_name,
         )
 
@@ -112,7 +106,7 @@ class Build:
             legs=FeetTable(
                 np.full(foot_count, length), np.full(foot_count, upright), side, row, sole
             ),
-            travel=TravelTable(travel, travel.copy()),
+            stride=StrideTable(np.stack([travel] * 2), np.zeros((2, foot_count)), travel, 1.0),
             foot_name=("",) * foot_count,
         )
 
@@ -131,8 +125,8 @@ class Build:
         return by_reference(self.legs)
 
     @cached_property
-    def _kernel_travel(self) -> TravelTable:
-        return by_reference(self.travel)
+    def _kernel_stride(self) -> StrideTable:
+        return by_reference(self.stride)
 
     @property
     def comfortable_speed(self) -> float:
@@ -162,15 +156,19 @@ class Build:
         stepped = gait
         for _ in range(ROUNDS):
             start, extent = stepped.swing_start.copy(), stepped.swing_extent.copy()
-            aim = tempo(
+            aim = stride_of(
                 float(speed),
+                gait.duty_low,
+                gait.duty_high,
+                gait.period,
+                start,
+                extent,
+                0.0,
                 self.hip_height,
                 self.leg_length,
                 self.upright,
-                gait.duty_low,
-                gait.duty_high,
-                travel_limit(start, extent, 0.0, self._kernel_travel, self._kernel_legs),
-                gait.period,
+                self._kernel_legs,
+                self._kernel_stride,
             )
             if abs(aim.duty - stepped.duty) < SETTLED:
                 break

@@ -56,10 +56,12 @@ _ENTRIES = {
     "stalk": _Entry("walk", 0.70, 0.75, 0.80, lag=0.20),
     "walking-trot": _Entry("walk", 0.60, 0.67, 0.75, lag=0.46),
     "trot": _Entry("run", 0.30, 0.45, 0.50, lag=0.5),
+    # A sprawler's walking trot and trot, one into the other: lag .46 when slow to .5 when fast.
+    "lizard": _Entry("run", 0.32, 0.67, 0.75, lag=0.46, lag_per_duty=-0.18),
     "amble": _Entry("run", 0.40, 0.48, 0.55, lag=0.25),
     "pace": _Entry("run", 0.35, 0.43, 0.50, corners=(0.0, 0.5, 0.05, 0.55)),
     "canter": _Entry("run", 0.38, 0.41, 0.45, corners=(0.0, 0.28, 0.30, 0.57)),
-    "transverse-gallop": _Entry("run", 0.20, 0.25, 0.30, corners=(0.0, 0.13, 0.37, 0.52)),
+    "transverse-gallop": _Entry("run", 0.16, 0.25, 0.30, corners=(0.0, 0.13, 0.37, 0.52)),
     "rotary-gallop": _Entry("run", 0.15, 0.20, 0.25, corners=(0.0, 0.12, 0.60, 0.48)),
     "half-bound": _Entry("run", 0.25, 0.35, 0.45, corners=(0.0, 0.025, 0.45, 0.60)),
     "bound": _Entry("run", 0.25, 0.35, 0.45, corners=(0.0, 0.0, 0.5, 0.5)),
@@ -69,6 +71,8 @@ _ENTRIES = {
     "tripod": _arthropod(0.50, 0.50, 0.60),
     "tetrapod": _arthropod(0.60, 2.0 / 3.0, 0.75),
     "wave": _arthropod(0.75, 5.0 / 6.0, 0.90),
+    # All three of them: what insects do from slow to fast (DeAngelis 2019, Szczecinski 2018).
+    "insect": _arthropod(0.50, 2.0 / 3.0, 0.90),
     # Lag .45 when fast to .40 when slow: a staggered alternating tetrapod.
     "spider": _Entry("arthropod", 0.50, 0.65, 0.75, lag=0.42, lag_per_duty=-0.2),
     "scorpion": _Entry("arthropod", 0.60, 0.67, 0.75, lag=0.60),
@@ -77,11 +81,9 @@ _ENTRIES = {
     "centipede": _Entry("arthropod", 0.50, 0.60, 0.70, lag=0.10),
     "millipede": _Entry("arthropod", 0.60, 0.70, 0.80, lag=0.06, right=0.0),
 }
-_BIPED_DUTY = {"walk": (0.60, 0.62, 0.65)}
+_BIPED_DUTY = {"walk": (0.57, 0.62, 0.68)}
 # A ring of legs has no pairs to alternate: these gaits step round it, never two neighbours in turn.
-_RING_GAITS = ("tripod", "tetrapod", "wave", "spider", "scorpion", "crab")
-
-_CONTINUUM = ("wave", "tetrapod", "tripod")
+_RING_GAITS = ("tripod", "tetrapod", "wave", "insect", "spider", "scorpion", "crab")
 
 
 def names() -> tuple[str, ...]:
@@ -212,22 +214,31 @@ def natural_duty(froude: float, upright: bool) -> float:
     return float(max(1.0 - SPRAWLER_SWING / period, 0.05))
 
 
-def _ladder(sides: IntArray, upright: bool) -> tuple[tuple[str, ...], tuple[float, ...]]:
-    """Return a creature's gaits from slow to fast, and the Froude numbers between them."""
+def gait_ladder(
+    side: ArrayLike, row: ArrayLike, upright: ArrayLike
+) -> tuple[tuple[str, ...], tuple[float, ...]]:
+    """Return a creature's gaits from slow to fast, and the Froude numbers between them.
+
+    Two legs walk and run; four upright ones walk, trot, canter and gallop. Sprawlers have one gait
+    whose pattern follows the speed: four legs the lizard's, up to six, and rings of legs, the
+    insects' continuum, eight to ten the spider's, more the centipede's. Arguments as for
+    `default_name`.
+    """
+    sides, _ = _checked_legs(side, row)
     count = sides.size
-    # Froude numbers at which a sprawler's natural duty is .75 and .60.
-    continuum = (_CONTINUUM, (0.0913, 0.736))
     if count == 2:
         return ("walk", "run"), (0.5,)
-    if count == 3 or ((sides == 0).any() and count < 12):
-        return continuum
-    if count == 4:
-        if upright:
+    if count == 4 and (sides != 0).all():
+        if _stands_upright(upright):
             return ("walk", "trot", "canter", "transverse-gallop"), (0.35, 2.0, 3.0)
-        return ("walking-trot", "trot"), (1.3,)
-    if count <= 6:
-        return continuum
+        return ("lizard",), ()
+    if count <= 6 or ((sides == 0).any() and count < 12):
+        return ("insect",), ()
     return (("spider",), ()) if count <= 10 else (("centipede",), ())
+
+
+def _stands_upright(upright: ArrayLike) -> bool:
+    return bool(np.mean(np.asarray(upright, dtype=np.float64)) > 0.5)
 
 
 def default_name(
@@ -244,8 +255,7 @@ def default_name(
     """
     if not froude >= 0.0:
         raise GaitError(f"a Froude number is at least 0, not {froude}")
-    sides, _ = _checked_legs(side, row)
-    ladder, limits = _ladder(sides, bool(np.mean(np.asarray(upright, dtype=np.float64)) > 0.5))
+    ladder, limits = gait_ladder(side, row, upright)
     place = ladder.index(current) if current in ladder else -1
     passed = 0
     for limit_place, limit in enumerate(limits):
@@ -259,11 +269,13 @@ def default_gait(
 ) -> Gait:
     """Return the gait that a creature takes at a speed, at its natural duty.
 
-    Two legs walk and run; four upright ones walk, trot, canter and gallop; four sprawling ones
-    walk at a trot; six go along the insects' continuum; rings of legs step round the ring; eight
-    to ten walk as spiders, more as centipedes. Arguments as for `default_name`.
+    Arguments as for `default_name`, gaits as in `gait_ladder`.
     """
     name = default_name(side, row, upright, froude, current)
-    stands_upright = bool(np.mean(np.asarray(upright, dtype=np.float64)) > 0.5)
+    return make_gait(name, side, row, own_duty(name, upright, froude))
+
+
+def own_duty(name: str, upright: ArrayLike, froude: float) -> float:
+    """Return the natural duty of a creature in a gait, before the gait clamps it."""
     arthropod = _ENTRIES[name].family == "arthropod"
-    return make_gait(name, side, row, natural_duty(froude, stands_upright and not arthropod))
+    return natural_duty(froude, _stands_upright(upright) and not arthropod)

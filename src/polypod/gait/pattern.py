@@ -151,6 +151,11 @@ class Gait:
         return float(np.sum(1.0 - self.swing_extent))
 
     @property
+    def duty_share(self) -> FloatArray:
+        """[K] each foot's duty over the mean duty."""
+        return np.asarray((1.0 - self.swing_extent) / self.duty)
+
+    @property
     def vault(self) -> float:
         """Alexander's q of the body's motion on upright legs: walks vault, all else bounces."""
         return WALKING_VAULT if self.family == "walk" else 0.0

@@ -17,6 +17,7 @@ from polypod.jobs.rig_options import RIG_OPTIONS, load_given_rig
 from polypod.jobs.screen import warn
 
 if TYPE_CHECKING:
+    from polypod.config import Settings
     from polypod.environment.scene import CreatureSpec, PushSpec, Scene
     from polypod.gait.pattern import Gait
     from polypod.gait.validation import GaitCheck
@@ -35,7 +36,7 @@ class Role:
 
     place: str  # for messages: where it was asked for
     morphology: Morphology
-    gait: Gait | None  # None: what fits legs and speed
+    gait: Gait | None  # None: it follows the speed
     speed: float  # m/s
     count: int
     position: tuple[float, float]  # x, z, m; of several: the middle of their rows
@@ -240,7 +241,7 @@ def list_pushes(roles: list[Role], scene: Scene, seconds: float) -> list[PushSpe
     return pushes
 
 
-def enter(world: World, role: Role) -> Herd:
+def enter(world: World, role: Role, settings: Settings | None = None) -> Herd:
     """Stand a role's creatures in the world, in rows if they are several, each with its path.
 
     Raises:
@@ -257,6 +258,7 @@ def enter(world: World, role: Role) -> Herd:
         heading=role.heading,
         gait=role.gait,
         speed=role.speed,
+        settings=settings,
     )
     if role.path:
         for c in range(role.count):
@@ -269,13 +271,15 @@ def overdone(role: Role, herd: Herd) -> str | None:
     from polypod.gait.tempo import top_speed
 
     tables = herd.tables
-    lowest_duty = float(herd.command.arrays.gait_duty[0, 1])
+    follows = bool(herd.command.arrays.follows[0])
+    duties = tables.ladder.duty[:, 1] if follows else herd.command.arrays.gait_duty[:, 1]
+    lowest_duty = float(duties.min())
     most = float(top_speed(tables.leg_length, lowest_duty, float(tables.ik.stance_travel.min())))
     if role.speed <= most:
         return None
     return (
         f"{role.morphology.name} is asked for {role.speed:.3g} m/s, and its legs can do about "
-        f"{most:.2g} m/s in this gait; its feet will not keep up"
+        f"{most:.2g} m/s{'' if follows else ' in this gait'}; its feet will not keep up"
     )
 
 

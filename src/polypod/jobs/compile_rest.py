@@ -35,7 +35,6 @@ def main() -> None:
     from polypod.environment.environment import Environment
     from polypod.environment.terrain import Terrain
     from polypod.frame import begin_frame, drive_creatures, pose_creatures, settle_creatures
-    from polypod.gait.library import default_gait
     from polypod.herd import Herd
     from polypod.morphology.load import load_rig
     from polypod.world import set_disks
@@ -44,9 +43,8 @@ def main() -> None:
     prepare_maps(env)
     # Later than the other process, which finds the kernels of a leg's reach compiled by then.
     herd = Herd(load_rig("spider"), 1, Settings())
-    legs = herd.tables.legs
-    herd.command.set_gait(default_gait(legs.side, legs.row, legs.upright, 0.1))
-    set_disks(0, 0.0, herd.kernel_state, herd.kernel_command)
+    herd.command.follow_speed()
+    set_disks(0, 0.0, 0.6, herd.kernel_state, herd.kernel_command, herd.kernel_tables)
     walker = (herd.kernel_state, herd.kernel_command, herd.kernel_tables, herd.kernel_settings)
     everything = (*walker, env, herd.kernel_plan, herd.scratch(0))
     prepare_search(env, herd.kernel_plan, herd.scratch(0))

@@ -51,6 +51,7 @@ class Recording:
     obstacle_position: FloatArray  # [F, O, 3] m
     obstacle_rotation: FloatArray  # [F, O, 4]
     activity: IntArray  # [F] polypod.activity.Activity
+    gait: NDArray[np.str_]  # [F] name of the gait that it walks in, or changes to
 
     def __post_init__(self) -> None:
         """Raise ValueError where an array has not the shape that its neighbours imply."""
@@ -70,6 +71,7 @@ class Recording:
             "obstacle_position": (frames, obstacles, 3),
             "obstacle_rotation": (frames, obstacles, 4),
             "activity": (frames,),
+            "gait": (frames,),
         }
         for name, shape in expected.items():
             if getattr(self, name).shape != shape:
@@ -99,6 +101,7 @@ class Recorder:
         obstacle_position: ArrayLike,
         obstacle_rotation: ArrayLike,
         activity: int,
+        gait: str = "",
     ) -> None:
         """Keep a copy of one frame; shapes as in `Recording` without the first axis."""
         obstacles = self.obstacle_count
@@ -116,6 +119,7 @@ class Recorder:
                 np.array(obstacle_position, np.float64).reshape(obstacles, 3),
                 np.array(obstacle_rotation, np.float64).reshape(obstacles, 4),
                 np.array(activity, np.int64),
+                np.array(gait, np.str_),
             )
         )
 
@@ -153,6 +157,7 @@ class Record(NamedTuple):
     obstacle_position: FloatArray  # [F, O, 3] world, m
     obstacle_rotation: FloatArray  # [F, O, 4]
     activity: IntArray  # [F] 0 walking, 1 standing, 2 arrived, 3 waiting, 4 blocked
+    gait: NDArray[np.str_]  # [F] name of the gait
 
 
 def bones(morphology: Morphology) -> IntArray:
@@ -201,6 +206,7 @@ def record_of(recording: Recording) -> Record:
         obstacle_position=_floats(recording.obstacle_position),
         obstacle_rotation=_floats(recording.obstacle_rotation),
         activity=np.ascontiguousarray(recording.activity, np.int64),
+        gait=_names(recording.gait),
     )
 
 
@@ -267,6 +273,7 @@ def _check(record: Record, source: Path) -> None:
         "obstacle_position": ("f", (frames, obstacles, 3)),
         "obstacle_rotation": ("f", (frames, obstacles, 4)),
         "activity": ("i", (frames,)),
+        "gait": ("U", (frames,)),
     }
     for name, (kind, shape) in shapes.items():
         values = getattr(record, name)

@@ -45,12 +45,19 @@ def stride_figures(
         "feet_down_mean": float(down.mean()),
         "feet_down_least": int(down.min()),
         "flight_share": float((down == 0).mean()),
+        "gait_shares": gait_shares(recording),
     }
     if gait_duty is not None:
         figures["duty_error"] = _largest_difference(duty, np.asarray(gait_duty, float))
     if gait_phase is not None:
         figures["phase_error"] = _phase_error(phase, np.asarray(gait_phase, float))
     return figures
+
+
+def gait_shares(recording: Recording) -> dict[str, float]:
+    """Return the share of the frames in each gait, in the order in which they were first taken."""
+    names = recording.gait.tolist()
+    return {name: names.count(name) / len(names) for name in dict.fromkeys(names)}
 
 
 def mean_stride_s(recording: Recording) -> float | None:
