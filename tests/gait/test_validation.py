@@ -12,6 +12,7 @@ from walker import paired
 
 from polypod import check_gait as exported
 from polypod import load_rig
+from polypod.controller.stride import StrideTable
 from polypod.errors import GaitError, SettingError
 from polypod.gait.balance import arcs_of, hull, margins_along, margins_of
 from polypod.gait.build import Build
@@ -45,6 +46,8 @@ OWN = {
     "crab": ("crab",),
     "centipede": ("centipede",),
     "millipede": ("centipede",),
+    "insect": ("ant", "pentapod"),
+    "lizard": ("lizard",),
 }
 
 
@@ -69,16 +72,13 @@ def natural_speed(creature: Build, duty: float) -> float:
 
 def sized(creature: Build, size: float) -> Build:
     """Return the same creature so many times as large."""
-    legs, travel = creature.legs, creature.travel
+    legs, stride = creature.legs, creature.stride
     return replace(
         creature,
         hip_height=size * creature.hip_height,
         leg_length=size * creature.leg_length,
         legs=legs._replace(length=size * legs.length, sole_stance=size * legs.sole_stance),
-        travel=travel._replace(
-            stance_travel=size * travel.stance_travel,
-            stance_travel_least=size * travel.stance_travel_least,
-        ),
+        stride=StrideTable(*(size * np.asarray(field) for field in stride[:3]), size * stride.sink),
     )
 
 

@@ -73,6 +73,7 @@ def stride(
         start[0], extent[0] = (made.touchdown + stands) % 1.0, 1.0 - stands
     state.duty[0], state.speed[0], state.cycle_rate[0] = duty, speed, 1.0 / period
     state.turn[0] = 1.0 / STEPS
+    state.gait_vault[0] = made.vault
     rows = []
     for _ in range(14 * STEPS):
         state.needle[0] = (state.needle[0] + 1.0 / STEPS) % 1.0

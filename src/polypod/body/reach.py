@@ -95,7 +95,7 @@ def body_within_reach(
             if attempt == 0:
                 state.pull[c, k] = size
             pull = EARLY_PULL if scratch.progress[k] < EARLY else LATE_PULL
-            if scratch.progress[k] < EARLY and may_drag(c, state):
+            if scratch.progress[k] < 1.0 and may_drag(c, state):
                 pull = 0.0
             if state.swinging[c, k] and size > pull * tables.leg_length:
                 continue

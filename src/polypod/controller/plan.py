@@ -34,7 +34,7 @@ from polypod.crowd.legs import is_taken
 from polypod.gait.needle import lift_phase, next_foot_to_lift, swing_progress
 
 # A foot over a place that its leg does not reach is sent elsewhere after so many cycles.
-OUT_OF_REACH = 0.03
+OUT_OF_REACH = 0.08
 
 
 @kernel

@@ -290,7 +290,7 @@ def advance_swings(
         late = 0.0
         if may_drag(c, state):
             near = dragged(c, k, sole, state, tables, scratch)
-            if near != sole and scratch.progress[k] >= NEARLY_DOWN:
+            if near != sole and scratch.progress[k] >= 1.0:
                 # Its place is out of reach, and no place to land: another is looked for soon.
                 scratch.progress[k] = NEARLY_DOWN
                 late = state.waiting[c, k] + dt

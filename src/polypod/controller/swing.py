@@ -180,13 +180,3 @@ def foot_along(c: int, k: int, progress: float, state: Any, env: Any) -> tuple[V
         along,
     )
     return sole, turn
-
-
-@kernel
-def shift_spacing(c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any) -> None:
-    """Move each foot's rest place to the wished one at a set rate (P1 Fig 6)."""
-    for k in range(state.swinging.shape[1]):
-        most = settings.spacing_rate * tables.legs.length[k] * dt
-        for axis in range(2):
-            gap = command.spacing[c, k, axis] - state.spacing[c, k, axis]
-            state.spacing[c, k, axis] += min(most, max(-most, gap))

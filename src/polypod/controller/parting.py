@@ -1,0 +1,88 @@
+"""Feet spacing as it comes and goes: what was asked for, and feet of one side that pass each other.
+
+Where strides are long a hind foot comes down beside or ahead of where the fore foot of its side
+still stands or has just stood. Quadrupeds that trot fast or gallop set their hind feet down farther
+out and their fore feet nearer to the middle, and so pass the ones outside the others (Hildebrand
+1977). So do these, as much as their strides need it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from polypod.compute import kernel
+from polypod.controller.stride import stance_centre
+from polypod.paths.apart import ROOM
+
+# They part while the ends of their stances overlap by up to so much, leg lengths.
+PARTED = 0.3
+# A fore foot comes at most so near to the middle, a share of how far out it stands.
+NARROWEST = 0.45
+
+
+@kernel
+def stance_edge(c: int, k: int, end: float, state: Any, command: Any, tables: Any) -> float:
+    """Return how far ahead of the body centre a stance begins (`end` 1) or ends (-1), m."""
+    middle: float = tables.legs.sole_stance[k, 2] + command.spacing[c, k, 1]
+    if state.cycle_rate[c] <= 0.0:
+        return middle
+    stance = (1.0 - state.goal_extent[c, k]) / state.cycle_rate[c]
+    way = state.speed[c] * math.cos(command.travel[c]) * stance
+    return middle + stance_centre(c, k, way, state, tables) + 0.5 * end * abs(way)
+
+
+@kernel
+def half_width(k: int, legs: Any) -> float:
+    """Return half of how wide a leg is below its first section, m."""
+    wide: float = legs.foot_half_size[k, 0]
+    for i in range(1, legs.joint_count[k] + 1):
+        wide = max(wide, legs.section_radius[k, i])
+    return wide
+
+
+@kernel
+def parted(
+    c: int, hind: int, fore: int, state: Any, command: Any, tables: Any
+) -> float:  # fmt: skip
+    """Return by how much two feet of a side that are neighbours are to part sideways, m."""
+    legs = tables.legs
+    overlap = stance_edge(c, hind, 1.0, state, command, tables)
+    overlap -= stance_edge(c, fore, -1.0, state, command, tables)
+    overlap += legs.foot_half_size[hind, 1] + legs.foot_half_size[fore, 1]
+    share = min(max(overlap / (PARTED * legs.length[hind]), 0.0), 1.0)
+    share = share * share * (3.0 - 2.0 * share)
+    wide = half_width(hind, legs) + half_width(fore, legs) + ROOM * legs.length[hind]
+    apart = (legs.sole_stance[hind, 0] + command.spacing[c, hind, 0]) * legs.side[hind]
+    apart -= (legs.sole_stance[fore, 0] + command.spacing[c, fore, 0]) * legs.side[fore]
+    return share * max(wide - apart, 0.0)
+
+
+@kernel
+def parting(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
+    """Return how far left of its rest place a foot goes to pass its neighbours on its side, m."""
+    legs = tables.legs
+    if not legs.upright[k] or legs.side[k] == 0:
+        return 0.0
+    out = 0.0
+    for other in range(legs.length.shape[0]):
+        if legs.side[other] != legs.side[k] or not legs.upright[other]:
+            continue
+        if legs.row[other] == legs.row[k] + 1:
+            out += 0.5 * parted(c, k, other, state, command, tables)
+        elif legs.row[other] == legs.row[k] - 1:
+            out -= 0.5 * parted(c, other, k, state, command, tables)
+    most = (1.0 - NARROWEST) * abs(legs.sole_stance[k, 0])
+    return float(max(out, -most) * legs.side[k])
+
+
+@kernel
+def shift_spacing(c: int, dt: float, state: Any, command: Any, tables: Any, settings: Any) -> None:
+    """Move each foot's rest place to the wished one at a set rate (P1 Fig 6)."""
+    for k in range(state.swinging.shape[1]):
+        most = settings.spacing_rate * tables.legs.length[k] * dt
+        for axis in range(2):
+            gap = command.spacing[c, k, axis] - state.spacing[c, k, axis]
+            if axis == 0:
+                gap += parting(c, k, state, command, tables)
+            state.spacing[c, k, axis] += min(most, max(-most, gap))
