@@ -17,6 +17,8 @@ TOLERANCE = 2e-5
 EARLY = 0.35
 EARLY_PULL = 0.06
 LATE_PULL = 0.015
+# A gait with a mean duty factor below this is a run.
+RUNNING_DUTY = 0.5
 
 
 @kernel
@@ -65,11 +67,12 @@ def shift_as_it_is(
 
 @kernel
 def may_drag(c: int, state: Any) -> bool:
-    """Return whether a body takes feet in the air along that fall behind: in gaits with flights.
+    """Return whether a body takes feet in the air along that fall behind: in runs.
 
-    Nothing holds it back there, and a body that waits in mid-air looks odd.
+    Feet swing for longer than they stand there. Nothing holds a body in flight, and one that waits
+    in mid-air, or ambles in fits and starts, looks odd.
     """
-    return bool(state.least_down[c] == 0)
+    return bool(state.duty[c] < RUNNING_DUTY)
 
 
 @kernel

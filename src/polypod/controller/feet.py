@@ -89,7 +89,9 @@ def plan_foot(
     store_vec3(scratch.hip[0], hip_at(c, k, pose, state, tables))
     store_vec3(scratch.hip[1], hip)
     outward = Vec3(preferred.x - landing.x, 0.0, preferred.z - landing.z)
-    others = gather_other_legs(c, k, state, tables, scratch.plan)
+    others = gather_other_legs(
+        c, k, touchdown, landing, state, command, tables, settings, env, scratch.plan
+    )
     look_ahead(c, dt, pose, errand, stance, state, command, tables, settings, env, scratch.plan)
     if state.waiting[c, k] * state.cycle_rate[c] > CROWDED:
         others = 0

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from polypod.body.push import moved_by_push
-from polypod.body.reach import effector_world
+from polypod.body.reach import effector_world, may_drag
 from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
@@ -22,33 +22,14 @@ from polypod.paths.apart import MOMENTS
 
 
 @kernel
-def gather_other_legs(c: int, k: int, state: Any, tables: Any, plan: Any) -> int:
-    """Write the segments of the other legs near foot `k` to the scratch; return their number.
+def passes(k: int, other: int, legs: Any) -> bool:
+    """Return whether two legs are neighbours on a side that part, and so may pass each other.
 
-    Of each leg whose foot could be met, the last section before the sole counts, as it is now for
-    a standing foot and as it will be for a swinging one.
+    In a run they do in mid-air, folded under the body: who kept clear of that would
+    straddle.
     """
-    count = 0
-    legs = tables.legs
-    for other in range(state.swinging.shape[1]):
-        gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
-        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
-            continue
-        sole = load_vec3(state.foot[c, other])
-        if state.swinging[c, other] and not hangs(c, other, state):
-            sole = load_vec3(state.foot_target[c, other])
-        knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
-        moved = sole - load_vec3(state.foot_reached[c, other])
-        store_vec3(plan.other_a[count], sole)
-        store_vec3(plan.other_b[count], knee + moved)
-        plan.other_radius[count] = 0.5 * max(
-            legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
-        )
-        plan.ahead.leg[count] = other
-        count += 1
-    plan.ahead.own[0] = k
-    plan.ahead.others[0] = count
-    return count
+    beside = legs.side[k] == legs.side[other] and abs(legs.row[k] - legs.row[other]) == 1
+    return bool(beside and legs.upright[k] and legs.upright[other])
 
 
 @kernel
@@ -97,6 +78,44 @@ def foot_later(
     height, _ = surface(env, x, z)
     rise = command.step_height[c] * 4.0 * share * (1.0 - share)
     return mix(here, Vec3(x, height, z), smooth_step(share)) + Vec3(0.0, rise, 0.0)
+
+
+@kernel
+def gather_other_legs(
+    c: int, k: int, seconds: float, landing: PlanPose, state: Any, command: Any, tables: Any,
+    settings: Any, env: Any, plan: Any,
+) -> int:  # fmt: skip
+    """Write the segments of the other legs near foot `k` to the scratch; return their number.
+
+    Of each leg whose foot could be met, the last section before the sole counts: where it will be
+    `seconds` from now, when foot `k` lands under the body at `landing`, or where it lands then. So
+    a hind foot may land in the print that the fore foot of its side has just left.
+    """
+    count = 0
+    legs = tables.legs
+    for other in range(state.swinging.shape[1]):
+        gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
+        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
+            continue
+        if may_drag(c, state) and passes(k, other, legs):
+            continue
+        sole = load_vec3(state.foot[c, other])
+        if not state.swinging[c, other]:
+            sole = foot_later(c, other, seconds, landing, command, state, tables, settings, env)
+        elif not hangs(c, other, state):
+            sole = load_vec3(state.foot_target[c, other])
+        knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
+        moved = sole - load_vec3(state.foot_reached[c, other])
+        store_vec3(plan.other_a[count], sole)
+        store_vec3(plan.other_b[count], knee + moved)
+        plan.other_radius[count] = 0.5 * max(
+            legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
+        )
+        plan.ahead.leg[count] = other
+        count += 1
+    plan.ahead.own[0] = k
+    plan.ahead.others[0] = count
+    return count
 
 
 @kernel

@@ -15,10 +15,14 @@ from polypod.compute import kernel
 from polypod.controller.stride import stance_centre
 from polypod.paths.apart import ROOM
 
-# They part while the ends of their stances overlap by up to so much, leg lengths.
+# Room between legs that pass each other, and from the middle to a fore leg, `ROOM`s: with one alone
+# a planner that looks at legs as they will be sends feet farther out now and then.
+PASSING = 2.0
+TWIN = 1.5
+# The fore foot does so much of it.
+OF_FORE = 0.25
+# They have parted when the ends of their stances overlap, and begin so far before, leg lengths.
 PARTED = 0.3
-# A fore foot comes at most so near to the middle, a share of how far out it stands.
-NARROWEST = 0.45
 
 
 @kernel
@@ -42,17 +46,24 @@ def half_width(k: int, legs: Any) -> float:
 
 
 @kernel
-def parted(
-    c: int, hind: int, fore: int, state: Any, command: Any, tables: Any
-) -> float:  # fmt: skip
-    """Return by how much two feet of a side that are neighbours are to part sideways, m."""
+def parted(c: int, hind: int, fore: int, state: Any, command: Any, tables: Any) -> float:
+    """Return by how much two neighbouring feet of a side are to part sideways, m.
+
+    One leg's first section passes the other one's lower ones, too.
+    """
     legs = tables.legs
     overlap = stance_edge(c, hind, 1.0, state, command, tables)
     overlap -= stance_edge(c, fore, -1.0, state, command, tables)
     overlap += legs.foot_half_size[hind, 1] + legs.foot_half_size[fore, 1]
-    share = min(max(overlap / (PARTED * legs.length[hind]), 0.0), 1.0)
+    share = min(max(1.0 + overlap / (PARTED * legs.length[hind]), 0.0), 1.0)
     share = share * share * (3.0 - 2.0 * share)
-    wide = half_width(hind, legs) + half_width(fore, legs) + ROOM * legs.length[hind]
+    hind_wide = half_width(hind, legs)
+    fore_wide = half_width(fore, legs)
+    wide = max(
+        max(hind_wide, legs.section_radius[hind, 0]) + fore_wide,
+        hind_wide + legs.section_radius[fore, 0],
+    )
+    wide += PASSING * ROOM * legs.length[hind]
     apart = (legs.sole_stance[hind, 0] + command.spacing[c, hind, 0]) * legs.side[hind]
     apart -= (legs.sole_stance[fore, 0] + command.spacing[c, fore, 0]) * legs.side[fore]
     return share * max(wide - apart, 0.0)
@@ -60,7 +71,11 @@ def parted(
 
 @kernel
 def parting(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
-    """Return how far left of its rest place a foot goes to pass its neighbours on its side, m."""
+    """Return how far left of its rest place a foot goes to pass its neighbours on its side, m.
+
+    A fore foot goes toward the middle as far as the other fore foot lets it, at most a quarter
+    of the way, and the hind foot does the rest.
+    """
     legs = tables.legs
     if not legs.upright[k] or legs.side[k] == 0:
         return 0.0
@@ -69,11 +84,20 @@ def parting(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
         if legs.side[other] != legs.side[k] or not legs.upright[other]:
             continue
         if legs.row[other] == legs.row[k] + 1:
-            out += 0.5 * parted(c, k, other, state, command, tables)
+            whole = parted(c, k, other, state, command, tables)
+            out += whole - min(OF_FORE * whole, inward_room(other, tables))
         elif legs.row[other] == legs.row[k] - 1:
-            out -= 0.5 * parted(c, other, k, state, command, tables)
-    most = (1.0 - NARROWEST) * abs(legs.sole_stance[k, 0])
-    return float(max(out, -most) * legs.side[k])
+            whole = parted(c, other, k, state, command, tables)
+            out -= min(OF_FORE * whole, inward_room(k, tables))
+    return float(out * legs.side[k])
+
+
+@kernel
+def inward_room(k: int, tables: Any) -> float:
+    """Return how far toward the middle a foot may go before it is in the way of its twin, m."""
+    legs = tables.legs
+    least = half_width(k, legs) + TWIN * ROOM * legs.length[k]
+    return max(abs(legs.sole_stance[k, 0]) - least, 0.0)
 
 
 @kernel

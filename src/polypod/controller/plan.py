@@ -39,7 +39,7 @@ OUT_OF_REACH = 0.08
 
 @kernel
 def hastens(c: int, k: int, state: Any) -> bool:
-    """Return whether a foot should be down already, in a gait with flights: it keeps its plan.
+    """Return whether a foot should be down already, in a run: it keeps its plan.
 
     Planned anew and anew for a body that waits for nothing, it would never land.
     """

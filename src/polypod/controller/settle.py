@@ -167,7 +167,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
 
     A swinging foot goes on along its path if its leg can follow, and a standing one rolls on. Else
     they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved. In
-    gaits with flights the body does not wait for swinging feet: see `dragged`.
+    runs the body does not wait for swinging feet: see `dragged`.
     """
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
