@@ -108,8 +108,8 @@ def gather_other_legs(
         moved = sole - load_vec3(state.foot_reached[c, other])
         store_vec3(plan.other_a[count], sole)
         store_vec3(plan.other_b[count], knee + moved)
-        plan.other_radius[count] = 0.5 * max(
-            legs.foot_half_size[other, 0], legs.foot_half_size[other, 1]
+        plan.other_radius[count] = 0.25 * (
+            legs.foot_half_size[other, 0] + legs.foot_half_size[other, 1]
         )
         plan.ahead.leg[count] = other
         count += 1

@@ -9,7 +9,7 @@ from polypod.environment.maps import LocalMap
 from polypod.environment.table import EnvironmentTable, is_forbidden
 from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import SHORTER_STEPS, CandidateScratch, GroundScratch
-from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.footprints.settings import PlanSettings, StepRequest, foot_radius
 from polypod.math.vec3 import Vec3, distance, load_vec3, mix, store_vec3
 from polypod.paths.apart import LegsAhead
 from polypod.paths.check import leg_gap
@@ -42,7 +42,7 @@ def close_cells(
     for row in range(n):
         for column in range(n):
             grid.closed[row, column] = window.forbidden[row, column]
-    foot = max(request.foot_half_x, request.foot_half_z)
+    foot = foot_radius(request)
     for s in range(request.other_foot_count):
         clear = legs.radius[s] + foot + settings.leg_gap * request.leg_length
         low_x = min(legs.a[s, 0], legs.b[s, 0]) - clear - window.place[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from polypod.compute import kernel
-from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.footprints.settings import PlanSettings, StepRequest, foot_radius
 from polypod.math.vec3 import Vec3
 from polypod.paths.apart import LegsAhead, place_factor
 from polypod.paths.check import leg_gap
@@ -22,7 +22,7 @@ def leg_factor(
 ) -> float:
     """Return 1, less where legs come near or cross, or REJECTED where another is in the place."""
     leg = request.leg_length
-    foot = max(request.foot_half_x, request.foot_half_z)
+    foot = foot_radius(request)
     for s in range(request.other_foot_count):
         clear = legs.radius[s] + foot + settings.leg_gap * leg
         gap = leg_gap(legs, s, place.x, place.z)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from polypod.compute import kernel
 from polypod.environment.table import EnvironmentTable
 from polypod.footprints.scratch import TALLY_PATHS, PlanScratch
-from polypod.footprints.settings import PlanSettings, StepRequest
+from polypod.footprints.settings import PlanSettings, StepRequest, foot_radius
 from polypod.math.vec3 import Vec3, length_plan
 from polypod.paths.apart import LegsAhead, path_factor, strains_hip
 from polypod.paths.check import chords_clear, deepest, meets_legs, out_of_reach
@@ -42,7 +42,7 @@ def try_pair(
     """
     phase, height = arc_start(env, request, end.y)
     leg = request.leg_length
-    foot = max(request.foot_half_x, request.foot_half_z)
+    foot = foot_radius(request)
     place_knots(lift, points, request.start_world, end, SHORTEST * leg, phase, height)
     for k in range(PATH_KNOTS):
         lift.extra[k] = 0.0

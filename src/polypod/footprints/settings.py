@@ -141,6 +141,16 @@ def landing_time(request: StepRequest) -> float:
 
 
 @kernel
+def foot_radius(request: StepRequest) -> float:
+    """Return how much room a foot takes beside other legs, m: the mean of its half extents.
+
+    Legs mostly pass each other sideways, where a long sole is narrow; whether they truly touch is
+    found by posing them (`paths.apart`).
+    """
+    return 0.5 * (request.foot_half_x + request.foot_half_z)
+
+
+@kernel
 def placed_shape(half_x: float, half_z: float, behind: float, yaw: float) -> FootShape:
     """Return a foot's shape for a heading, its middle `behind` metres behind its sole."""
     sine = math.sin(yaw)
