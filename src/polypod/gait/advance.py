@@ -26,6 +26,8 @@ SOON = 1.5
 # to this power. The leg is shorter meanwhile, and the body gives way: half of that counts.
 SWING_LAG = 0.07
 LAG_POWER = 1.5
+# A front foot is out of the way of the one behind it when it has been up for so many cycles.
+GONE = 0.1
 # Cycles in which a hurry dies away once legs have room again.
 HURRY_CYCLES = 3.0
 # A balance step, twice as quick as the gait's, takes at least so many leg pendulum times; and the
@@ -88,10 +90,11 @@ def neighbour_limit(start: Any, extent: Any, direction: float, legs: Any) -> flo
                 continue
             duty = 1.0 - extent[back]
             lag = wrap_phase(start[back] + extent[back] - (start[front] + extent[front]))
-            if lag < duty:
+            left = 1.0 - max(lag - duty, 0.0) / GONE
+            if left > 0.0:
                 gap = (legs.sole_stance[front, 2] - legs.sole_stance[back, 2]) * along
                 gap += (legs.sole_stance[front, 0] - legs.sole_stance[back, 0]) * across
-                limit = min(limit, abs(gap) / max(lag, 1e-3) * duty)
+                limit = min(limit, abs(gap) / max(lag, 1e-3) * duty / left)
     return limit
 
 
