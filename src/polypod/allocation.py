@@ -66,6 +66,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
             "gait_speed",
             "gait_vault",
             "sink",
+            "caution",
             "cycles",
             "seed",
             "sway",

@@ -90,6 +90,7 @@ class HerdState(NamedTuple):
     gait_duty: FloatArray  # [C, 3]
     gait_vault: FloatArray  # [C]
     sink: FloatArray  # [C] m by which it carries its body lower, to stride longer
+    caution: FloatArray  # [C] by how much the ground shortens its strides, 0 to 1
     cycles: FloatArray  # [C] cycles walked, where strides vary
     seed: IntArray  # [C] of what varies
     least_down: IntArray  # [C] fewest feet that must stand at any moment

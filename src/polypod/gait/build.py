@@ -164,6 +164,7 @@ class Build:
                 start,
                 extent,
                 0.0,
+                0.0,
                 self.hip_height,
                 self.leg_length,
                 self.upright,
