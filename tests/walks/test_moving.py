@@ -30,7 +30,7 @@ MOVING = ("crates", "platforms", "turntables", "careless")
 @pytest.mark.parametrize("rig", ["spider", "ant", "pentapod", "wolf"])
 def test_nothing_goes_through_a_foot(rig: str, place: str) -> None:
     morphology = load_rig(rig)
-    recording, environment = soak.walk(morphology, place, 1, 10.0, 30.0)
+    recording, environment = soak.walk(morphology, place, 1, 20.0, 30.0)
     result = soak.judge(recording, environment, default_speed(morphology))
     broken = set(result.broken(place))
     if place == "turntables":
@@ -49,7 +49,7 @@ def test_nothing_goes_through_a_foot(rig: str, place: str) -> None:
 @pytest.mark.parametrize("rig", ["spider", "ant", "pentapod", "wolf"])
 def test_hard_ground_is_crossed(rig: str, place: str) -> None:
     morphology = load_rig(rig)
-    recording, environment = soak.walk(morphology, place, 1, 10.0, 30.0)
+    recording, environment = soak.walk(morphology, place, 1, 20.0, 30.0)
     result = soak.judge(recording, environment, default_speed(morphology))
     assert result.broken(place) == []
     assert result.distance > 0.8
