@@ -21,6 +21,10 @@ from polypod.math.vec3 import Vec3, length_plan, load_vec3, mix, store_vec3
 from polypod.paths.apart import MOMENTS
 
 
+# Who shortens its strides by so much of what it may does not count on feet that have yet to lift.
+CAREFUL = 0.25
+
+
 @kernel
 def passes(k: int, other: int, legs: Any) -> bool:
     """Return whether two legs are neighbours on a side that part, and so may pass each other.
@@ -89,7 +93,8 @@ def gather_other_legs(
 
     Of each leg whose foot could be met, the last section before the sole counts: where it will be
     `seconds` from now, when foot `k` lands under the body at `landing`, or where it lands then. So
-    a hind foot may land in the print that the fore foot of its side has just left.
+    a hind foot may land in the print that the fore foot of its side has just left; but not where
+    the ground is such that the fore foot may find no place to go to.
     """
     count = 0
     legs = tables.legs
@@ -100,9 +105,9 @@ def gather_other_legs(
         if may_drag(c, state) and passes(k, other, legs):
             continue
         sole = load_vec3(state.foot[c, other])
-        if not state.swinging[c, other]:
+        if not state.swinging[c, other] and state.caution[c] < CAREFUL:
             sole = foot_later(c, other, seconds, landing, command, state, tables, settings, env)
-        elif not hangs(c, other, state):
+        elif state.swinging[c, other] and not hangs(c, other, state):
             sole = load_vec3(state.foot_target[c, other])
         knee = load_vec3(state.joint_position[c, legs.joint[other, legs.joint_count[other] - 1]])
         moved = sole - load_vec3(state.foot_reached[c, other])

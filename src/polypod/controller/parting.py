@@ -19,7 +19,7 @@ from polypod.paths.apart import ROOM
 # a planner that looks at legs as they will be sends feet farther out now and then.
 PASSING = 2.0
 TWIN = 1.5
-# The fore foot does so much of it.
+# The fore foot does so much of it on level ground; elsewhere fore feet keep clear of each other.
 OF_FORE = 0.25
 # They have parted when the ends of their stances overlap, and begin so far before, leg lengths.
 PARTED = 0.3
@@ -80,15 +80,16 @@ def parting(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
     if not legs.upright[k] or legs.side[k] == 0:
         return 0.0
     out = 0.0
+    inward = OF_FORE * (1.0 - state.caution[c])
     for other in range(legs.length.shape[0]):
         if legs.side[other] != legs.side[k] or not legs.upright[other]:
             continue
         if legs.row[other] == legs.row[k] + 1:
             whole = parted(c, k, other, state, command, tables)
-            out += whole - min(OF_FORE * whole, inward_room(other, tables))
+            out += whole - min(inward * whole, inward_room(other, tables))
         elif legs.row[other] == legs.row[k] - 1:
             whole = parted(c, other, k, state, command, tables)
-            out -= min(OF_FORE * whole, inward_room(k, tables))
+            out -= min(inward * whole, inward_room(k, tables))
     return float(out * legs.side[k])
 
 
