@@ -20,7 +20,6 @@ from polypod.math.quat import load_quat, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, mix, store_vec3
 from polypod.paths.apart import MOMENTS
 
-
 # Who shortens its strides by so much of what it may does not count on feet that have yet to lift.
 CAREFUL = 0.25
 

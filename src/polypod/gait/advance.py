@@ -185,14 +185,18 @@ def stride_at(c: int, speed: float, state: Any, command: Any, tables: Any) -> St
 def wished_caution(c: int, state: Any, tables: Any) -> float:
     """Return how much shorter than on level ground a creature's strides are to be, 0 to 1.
 
-    On steep ground, and where feet stand or are about to land above or below the plane that they
-    make together: people, dogs and horses shorten their strides there.
+    On steep ground, on things that lie about, and where feet stand or are about to land above or
+    below the plane that they make together: people, dogs and horses shorten their strides there.
     """
     most = 0.0
     for k in range(state.swinging.shape[1]):
         place = load_vec3(state.foot[c, k])
+        support = state.foot_support[c, k]
         if state.swinging[c, k]:
             place = load_vec3(state.foot_target[c, k])
+            support = state.landing_support[c, k]
+        if support >= 0:
+            return 1.0
         most = max(most, abs(place.y - level_height(c, place.x, place.z, state)))
     steep = math.hypot(state.slope[c, 0], state.slope[c, 1])
     rough = most / (ROUGH * tables.hip_height) + steep / STEEP
