@@ -8,9 +8,13 @@ import numpy as np
 import pytest
 
 from polypod.config import Settings
+from polypod.gait.library import make_gait
+from polypod.gait.validation import check_gait
 from polypod.morphology.load import load_rig
 from polypod.recording import record_walk
+from polypod.report.arrays import runs_of
 from polypod.report.figures import measure
+from polypod.report.record import Recording
 from polypod.world import World
 
 RATE = 60
@@ -83,3 +87,48 @@ def test_it_starts_and_stops_without_a_jolt() -> None:
     assert np.abs(herd.state.particle_offset[0]).max() < 1e-6
     assert abs(herd.state.sway[0]) < 1e-4
     assert heights[-1] == pytest.approx(before, abs=0.01)
+
+
+def flights(recording: Recording) -> list[tuple[int, int]]:
+    """Return the whole flights of a walk: frames from and to, no foot down."""
+    runs = runs_of(~recording.foot_stance.any(axis=1))
+    return [(a, b) for a, b in runs if a > 0 and b < len(recording.time)]
+
+
+@pytest.mark.parametrize(
+    ("gait", "gathered_and_stretched"),
+    [("transverse-gallop", (True, False)), ("rotary-gallop", (True, True))],
+)
+def test_a_gallop_flies_where_animals_do(
+    gait: str, gathered_and_stretched: tuple[bool, bool]
+) -> None:
+    """With its feet gathered under it, and a rotary one stretched out as well (Hildebrand 1977).
+
+    It falls freely there, no leg comes to its end, and none meets another.
+    """
+    wolf = load_rig("wolf")
+    world = World(threads=1)
+    herd = world.add(wolf, speed=5.0, gait=gait, position=[0.0, 0.0])
+    rate = 120.0
+    for _ in range(round(4.0 * rate)):
+        world.step(1.0 / rate)
+    recording = record_walk(world, 2.0, rate)[0]
+    figures = measure(recording, world.environment.table)
+    along = recording.foot_position[:, :, 2]
+    fore, hind = (along[:, herd.tables.legs.row == row].mean(axis=1) for row in (1, 0))
+    rest = wolf.legs.sole_stance[:, 2]
+    reach = (fore - hind) - (rest[2] - rest[0])
+    flown = flights(recording)
+    middle = np.array([reach[(a + b) // 2] for a, b in flown])
+    assert ((middle < 0.0).any(), (middle > 0.0).any()) == gathered_and_stretched
+    cycles = 2.0 * float(herd.state.cycle_rate[0])
+    assert len(flown) == pytest.approx(sum(gathered_and_stretched) * cycles, abs=1.5)
+    asked = check_gait(make_gait(gait, wolf.legs.side, wolf.legs.row), wolf, speed=5.0)
+    share = np.mean(~recording.foot_stance.any(axis=1))
+    assert share == pytest.approx(asked.flight_share, abs=0.06)
+    force = 1.0 + np.diff(recording.body_position[:, 1], n=2) * rate * rate / 9.81
+    for start, stop in flown:
+        assert np.abs(force[start + 1 : stop - 3]).max(initial=0.0) < 0.1
+    assert figures["body_force_least_g"] > -0.1
+    assert figures["legs_touching_share"] == 0.0
+    assert figures["stance_slip_of_leg"] < 1e-9
