@@ -91,12 +91,8 @@ def draw_strip(
     oversampling: int = 2,
 ) -> ByteImage:
     """Return the picture [height, width, 3] that `write_strip` writes."""
-    walkers = [
-        _Walker(recording, flesh_of(recording.morphology), np.array([0.35, 0.36, 0.40]))
-        for recording in recordings
-    ]
     frames = stride_frames(recordings[0], columns)
-    drawing = _Drawing(walkers, environment, frames, width, oversampling)
+    drawing = _Drawing(_walkers(recordings), environment, frames, width, oversampling)
     rows = [drawing.wide_view()]
     rows += [drawing.row(elevation) for elevation in (SIDE_ELEVATION, ABOVE)]
     gap = np.full((GAP, width, 3), 255, np.uint8)
@@ -104,6 +100,19 @@ def draw_strip(
     for row in rows[1:]:
         pieces += [gap, row]
     return np.concatenate(pieces)
+
+
+def draw_side(
+    recording: Recording, environment: EnvironmentTable, columns: int, width: int
+) -> ByteImage:
+    """Return a picture [height, width, 3] of a stride from the side, in so many frames."""
+    frames = stride_frames(recording, columns)
+    return _Drawing(_walkers([recording]), environment, frames, width, 2).row(SIDE_ELEVATION)
+
+
+def _walkers(recordings: list[Recording]) -> list[_Walker]:
+    colour = np.array([0.35, 0.36, 0.40])
+    return [_Walker(one, flesh_of(one.morphology), colour) for one in recordings]
 
 
 def stride_frames(recording: Recording, count: int) -> list[int]:
