@@ -26,8 +26,10 @@ def _dtype(hint: Any) -> Any:
     return np.bool_ if hint == BoolArray else np.float64
 
 
-def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
-    """Return the state of a herd, all zero."""
+def make_state(
+    count: int, feet: int, joints: int, girdles: int, segments: int, tail: int
+) -> HerdState:
+    """Return the state of a herd, all zero; `segments` of a spine, and `tail` of its tail."""
     c, k, j = count, feet, joints
     scalar = dict.fromkeys(
         (
@@ -67,6 +69,7 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
             "caught",
             "caught_clock",
             "shy",
+            "spine_lead",
         ),
         (c,),
     )
@@ -142,13 +145,18 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
         "nod": (c, 2),
         "room": (c, 2),
         "sway_share": (c, 3),
+        "segment_shift": (c, segments + tail, 3),
+        "segment_turn": (c, segments + tail, 4),
+        "girdle_bend": (c, girdles, 4),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),
     }
     state: HerdState = _allocate(
         HerdState, shapes, path=path_store(c, k), route=make_route_state(c)
     )
-    for turn in (state.rotation, state.joint_rotation, state.foot_rotation):
+    for turn in (
+        state.rotation, state.joint_rotation, state.foot_rotation, state.segment_turn
+    ):  # fmt: skip
         turn[..., 3] = 1.0
     state.foot_rotation_start[..., 3] = 1.0
     state.foot_rotation_target[..., 3] = 1.0

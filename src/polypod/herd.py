@@ -26,12 +26,14 @@ from polypod.footprints.settings import PlanSettings
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
 from polypod.morphology.girdles import find_girdles
+from polypod.morphology.spine import make_spine
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
+from polypod.spine.table import make_bend_table
 from polypod.state import HerdTables, JointTable
 
 WAYPOINT_ROOM = 256
@@ -95,10 +97,14 @@ def make_tables(morphology: Morphology) -> HerdTables:
     track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
     ik = build_ik_table(legs)
+    girdles = find_girdles(legs)
+    spine = make_spine(morphology, girdles)
     return HerdTables(
         legs=legs,
         ik=ik,
-        girdles=find_girdles(legs),
+        girdles=girdles,
+        spine=spine,
+        bend=make_bend_table(spine, girdles, legs),
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
@@ -144,7 +150,15 @@ class Herd:
         self.morphology = morphology
         self.plan_settings = PlanSettings()
         self.tables = make_tables(morphology)
-        self.state = make_state(count, feet, joints, len(self.tables.girdles.place))
+        spine = self.tables.spine
+        self.state = make_state(
+            count,
+            feet,
+            joints,
+            len(self.tables.girdles.place),
+            len(spine.joint),
+            len(spine.tail_joint),
+        )
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
         self.command.step_height = min(

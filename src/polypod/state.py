@@ -10,9 +10,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from polypod.morphology.girdles import Girdles
+from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
 from polypod.paths.curve import PathRow
 from polypod.routes.state import RouteState
+from polypod.spine.table import BendTable
 
 
 class JointTable(NamedTuple):
@@ -29,6 +31,8 @@ class HerdTables(NamedTuple):
     legs: LegTable
     ik: Any  # polypod.ik.table.IkTable
     girdles: Girdles
+    spine: SpineTable
+    bend: BendTable
     body: BodyTable
     joints: JointTable
     leg_length: float  # mean over legs, m: the unit of all tolerances
@@ -140,6 +144,11 @@ class HerdState(NamedTuple):
     sway: FloatArray  # [C] m: body centre to the left of its course
     swayed: FloatArray  # [C] m: what it would be in full
     sway_share: FloatArray  # [C, 3] smoothed share of that, its rate, low pass
+    segment_shift: FloatArray  # [C, S + T, 3] m: motion of the spine's segments, then the tail's,
+    segment_turn: FloatArray  # [C, S + T, 4] relative to the body frame; see polypod.spine.frames
+    girdle_bend: FloatArray  # [C, G, 4] a girdle against the body's axis, without what its gait
+    # adds: to the left and up, m, yaw (as a heading) and pitch (front up), rad
+    spine_lead: FloatArray  # [C] how much of the track the spine takes on: 0 of who goes sideways
     joint_position: FloatArray  # [C, J, 3]
     joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
     foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it

@@ -12,12 +12,12 @@ from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane, body_rotation
 from polypod.compute import kernel
-from polypod.controller.rest import rest_offset
+from polypod.controller.rest import hip_offset, rest_ahead
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface
 from polypod.math.intervals import wrap_phase
-from polypod.math.quat import Quat, load_quat, rotate
+from polypod.math.quat import Quat, load_quat
 from polypod.math.vec3 import Vec3, load_vec3
 
 # How far the body sinks, preferred heights: for legs that lag, which looks worse than waiting for
@@ -42,11 +42,15 @@ LATE = 0.1
 
 @kernel
 def highest_over(
-    k: int, place: Vec3, foot_turn: Quat, pose: PlanPose, turn: Quat, tables: Any
-) -> float:
-    """Return the greatest height of the body at which a leg reaches a place for its sole."""
+    c: int, k: int, place: Vec3, foot_turn: Quat, pose: PlanPose, turn: Quat, state: Any,
+    tables: Any,
+) -> float:  # fmt: skip
+    """Return the greatest height of the body at which a leg reaches a place for its sole.
+
+    `turn` is the body's rotation at the pose.
+    """
     ankle = effector_world(k, tables, place, foot_turn, 0.0)
-    hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
+    hip = hip_offset(c, k, turn, pose, state, tables)
     reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
     dx = pose.x + hip.x - ankle.x
     dz = pose.z + hip.z - ankle.z
@@ -77,8 +81,10 @@ def highest(
             place = place - Vec3(x, 0.0, math.cos(course) * way + push_z)
         elif state.waiting[c, k] > 0.0:
             wish = load_vec3(state.wish[c, k])
-            deep = min(deep, highest_over(k, wish, foot_turn, pose, turn, tables) - base)
-        shallow = min(shallow, highest_over(k, place, foot_turn, pose, turn, tables) - base)
+            over = highest_over(c, k, wish, foot_turn, pose, turn, state, tables)
+            deep = min(deep, over - base)
+        over = highest_over(c, k, place, foot_turn, pose, turn, state, tables)
+        shallow = min(shallow, over - base)
     height = command.body_height[c]
     return min(max(shallow, -SHALLOW * height), max(deep, -DEEP * height))
 
@@ -122,7 +128,7 @@ def highest_soon(
                 continue
             place = load_vec3(state.foot[c, k])
             foot_turn = load_quat(state.foot_rotation[c, k])
-            over = highest_over(k, place, foot_turn, later, turn, tables)
+            over = highest_over(c, k, place, foot_turn, later, turn, state, tables)
             most = min(most, over - base - rise)
     return max(most, -SHALLOW * command.body_height[c])
 
@@ -145,12 +151,12 @@ def highest_ahead(
         stance = cycle * (1.0 - state.goal_extent[c, k])
         half = 0.5 * there.speed * cycle * (1.0 - state.goal_extent[c, k])
         push_x, push_z = moved_by_push(there.aside, tables.recovery, 0.5 * stance)
-        offset = rest_offset(c, k, there.heading, state, tables, settings)
+        offset = rest_ahead(c, k, there, state, tables, settings)
         x = there.x + offset.x + math.sin(course) * half + push_x
         z = there.z + offset.z + math.cos(course) * half + push_z
         y, _ = surface(env, x, z)
         foot_turn = load_quat(state.foot_rotation_target[c, k])
-        over = highest_over(k, Vec3(x, y, z), foot_turn, there, turn, tables)
+        over = highest_over(c, k, Vec3(x, y, z), foot_turn, there, turn, state, tables)
         most = min(most, over - base - rise)
     return max(most, -DEEP * command.body_height[c])
 

@@ -121,7 +121,8 @@ def may_go(
     foot_turn = pitched(turn, scratch.pitch[k, 0])
     position = load_vec3(state.position[c])
     body_turn = load_quat(state.rotation[c])
-    shift = foot_shift(k, tables, sole, foot_turn, scratch.bend[k, 0], position, body_turn)
+    bend = scratch.bend[k, 0]
+    shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, body_turn)
     return length(shift) <= DRAWN * (EARLY_PULL if progress < EARLY else LATE_PULL) * unit
 
 
@@ -175,7 +176,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         sole = load_vec3(scratch.sole[k])
         foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
         bend = scratch.bend[k, 0]
-        shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+        shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
         if length(shift) <= 2.0 * tolerance:
             continue
         if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
