@@ -99,6 +99,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         legs=legs,
         ik=ik,
         girdles=find_girdles(legs),
+        spine=morphology.segments,
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,

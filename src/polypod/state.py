@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from polypod.morphology.girdles import Girdles
+from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
 from polypod.paths.curve import PathRow
 from polypod.routes.state import RouteState
@@ -29,6 +30,7 @@ class HerdTables(NamedTuple):
     legs: LegTable
     ik: Any  # polypod.ik.table.IkTable
     girdles: Girdles
+    spine: SpineTable
     body: BodyTable
     joints: JointTable
     leg_length: float  # mean over legs, m: the unit of all tolerances
