@@ -26,7 +26,6 @@ from polypod.footprints.settings import PlanSettings
 from polypod.gait.tempo import GRAVITY
 from polypod.ik.table import build_ik_table
 from polypod.morphology.girdles import find_girdles
-from polypod.morphology.spine import make_spine
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
@@ -98,13 +97,12 @@ def make_tables(morphology: Morphology) -> HerdTables:
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
     ik = build_ik_table(legs)
     girdles = find_girdles(legs)
-    spine = make_spine(morphology, girdles)
     return HerdTables(
         legs=legs,
         ik=ik,
         girdles=girdles,
-        spine=spine,
-        bend=make_bend_table(spine, girdles, legs),
+        spine=morphology.segments,
+        bend=make_bend_table(morphology.segments, girdles),
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.errors import RigError, SettingError, choices
+from polypod.morphology.backbone import find_spine, find_tail
 from polypod.morphology.builtin import NAMES as BUILT_IN
 from polypod.morphology.builtin import build as build_builtin
 from polypod.morphology.creature import Creature, read_creature
@@ -22,10 +23,11 @@ from polypod.morphology.limb import Limb, build_limb
 from polypod.morphology.names import find_node, split_leg
 from polypod.morphology.overrides import override_feet, override_limits
 from polypod.morphology.roll import find_rolls
+from polypod.morphology.segments import Trunk, build_spine
 from polypod.morphology.skeleton import Skeleton, read_skeleton
 from polypod.morphology.stance import stand
 from polypod.morphology.table import joint_rows, leg_table, stand_upright
-from polypod.morphology.trunk import body_centre, find_spine, measure_trunk
+from polypod.morphology.trunk import body_centre, measure_trunk
 from polypod.morphology.types import BodyTable, Morphology, RigSource
 from polypod.rigs.gltf import GltfDocument
 
@@ -69,6 +71,7 @@ def load_rig(
         SettingError: an argument is out of its range.
     """
     creature = _ask(rig, legs, spine, forward, height, body_height, weights)
+    named = creature.spine is not None
     document, creature = _open(creature)
     file_skeleton = read_skeleton(document)
     turn, _, facing_guess = turn_to_face(file_skeleton, creature.forward)
@@ -84,7 +87,7 @@ def load_rig(
         guesses.append(
             f"its file units are metres, so it is {size:.4g} m tall; --height says otherwise"
         )
-    morphology = _assemble(skeleton, to_frame, limbs, creature, guesses)
+    morphology = _assemble(skeleton, to_frame, limbs, creature, named, guesses)
     return override_limits(override_feet(morphology, skeleton, creature), skeleton, creature)
 
 
@@ -209,9 +212,10 @@ def _assemble(
     to_frame: FloatArray,
     limbs: list[Limb],
     creature: Creature,
+    named: bool,
     guesses: list[str],
 ) -> Morphology:
-    """Put stance, trunk, spine and tables together."""
+    """Put stance, trunk, spine and tables together; `named`: the user says what the spine is."""
     hip, sole = _hips_and_soles(skeleton, limbs)
     layout = arrange(hip, sole)
     centre = body_centre(hip) if creature.centre is None else np.array(creature.centre)
@@ -222,6 +226,7 @@ def _assemble(
     rows, parents = joint_rows(skeleton, limbs)
     row_of = {node: row for row, node in enumerate(rows)}
     spine, spine_guess = _spine(skeleton, limbs, hip, creature, row_of)
+    tail = find_tail(skeleton, limbs, hip, spine)
     body_from_file = to_frame.copy()
     body_from_file[:3, 3] -= centre
     upright = stand_upright(skeleton, limbs, stance.sole)
@@ -242,7 +247,8 @@ def _assemble(
         foot_name=tuple(skeleton.label(limb.foot) for limb in limbs),
         foot_node=np.array(nodes, np.int64),
         foot_offset=_in_nodes(skeleton, to_frame, np.array(nodes), legs.sole_rest + centre),
-        spine=spine,
+        spine=tuple(row_of[node] for node in spine),
+        segments=build_spine(Trunk(skeleton, centre, rows, parents, legs), spine, tail, named),
         body=BodyTable(
             thickness=creature.thickness or min(trunk.thickness, 0.9 * body_height),
             height=body_height,
@@ -270,15 +276,15 @@ def _spine(
     hip: FloatArray,
     creature: Creature,
     row_of: dict[int, int],
-) -> tuple[tuple[int, ...], list[str]]:
-    """Return the spine's rows, and a guess if it was detected."""
+) -> tuple[list[int], list[str]]:
+    """Return the spine's nodes, and a guess if it was detected."""
     if creature.spine is None:
         found = find_spine(skeleton, limbs, hip)
         if not found:
-            return (), []
+            return [], []
         names = f'"{skeleton.label(found[0])}" to "{skeleton.label(found[-1])}"'
         guess = f"its spine runs from {names}, {len(found)} joints; --spine names another"
-        return tuple(row_of[node] for node in found), [guess]
+        return found, [guess]
     nodes = [find_node(skeleton, text, "spine") for text in creature.spine]
     turned = {node for limb in limbs for node in (*limb.joints, limb.foot_joint)}
     for node in nodes:
@@ -294,4 +300,4 @@ def _spine(
                 f'{skeleton.document.name}: spine: "{skeleton.label(node)}" {fault}; '
                 "name joints of the trunk, from back to head"
             )
-    return tuple(row_of[node] for node in nodes), []
+    return nodes, []

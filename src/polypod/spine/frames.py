@@ -87,6 +87,6 @@ def leg_frame_at(
     left, yaw = girdle_ahead(c, g, then, state, tables)
     pitch = from_axis_angle(Vec3(1.0, 0.0, 0.0), -state.girdle_bend[c, g, 3])
     carried = from_heading(yaw) * pitch
-    rest = Vec3(0.0, tables.bend.height[g], tables.girdles.place[g])
+    rest = load_vec3(tables.spine.girdle_rest[g])
     shift = rest + Vec3(left, state.girdle_bend[c, g, 1], 0.0) - rotate(carried, rest)
     return position + rotate(turn, shift), turn * carried

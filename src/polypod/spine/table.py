@@ -8,22 +8,18 @@ import numpy as np
 
 from polypod.morphology.girdles import Girdles
 from polypod.morphology.spine import SpineTable
-from polypod.morphology.types import FloatArray, LegTable
+from polypod.morphology.types import FloatArray
 
 
 class BendTable(NamedTuple):
     """The G girdles of a spine as nodes of a curve; body frame, m."""
 
-    height: FloatArray  # [G] mean of a girdle's hips
     most_yaw: FloatArray  # [G] rad by which limits let a girdle turn against the body's axis
 
 
-def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> BendTable:
-    """Return what is made from the spine's segments, its girdles and their legs."""
-    count = len(girdles.place)
-    hip = legs.point_rest[:, 0]
-    height = np.array([hip[girdles.of_leg == g, 1].mean() for g in range(count)])
-    return BendTable(height, most_yaw(spine, girdles))
+def make_bend_table(spine: SpineTable, girdles: Girdles) -> BendTable:
+    """Return what is made from the spine's segments and its girdles."""
+    return BendTable(most_yaw(spine, girdles))
 
 
 def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:

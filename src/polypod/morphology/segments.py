@@ -1,0 +1,275 @@
+"""The table of a spine's segments, from the chains of joints found or named in a skeleton."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from polypod.morphology.flexibility import default_limits, tail_limits
+from polypod.morphology.girdles import find_girdles
+from polypod.morphology.skeleton import Skeleton
+from polypod.morphology.spine import SpineTable, rigid_trunk
+from polypod.morphology.types import FloatArray, IntArray, LegTable
+
+# Of a leg's length:
+SHORTEST = 0.02  # a segment is longer, and in the trunk leads so far forward
+BESIDE = 0.35  # a leg is believed to hang on the segment that its file says when no farther from it
+BEGIN_BEHIND = 0.1  # the first segment is at least so long, where no joint says where it begins
+LEANS = 0.7  # cosine: a bone that leans more against the spine's way says nothing of its begin
+AHEAD = 0.15  # the first segment begins no farther ahead of the hips
+FRONT = 98.0  # per cent of the skin: where a head ends, without single hairs
+
+
+@dataclass(frozen=True)
+class Trunk:
+    """What the table is made from: a rig, its joint table and its legs in the body frame."""
+
+    skeleton: Skeleton
+    centre: FloatArray  # [3] the body centre in the skeleton's frame
+    rows: list[int]  # [J] node of each joint
+    parent: IntArray  # [J] row of the joint it rides on, -1: the body
+    legs: LegTable
+
+    def place(self, node: int) -> FloatArray:
+        """Return where a node is at rest [3], body frame, on the middle plane."""
+        place = self.skeleton.position[node] - self.centre
+        return np.array([0.0, place[1], place[2]])
+
+    def skin(self, node: int) -> FloatArray:
+        """Return the skin [V, 3] that a node carries, body frame."""
+        return np.asarray(self.skeleton.vertex[self.skeleton.share([node]) >= 0.5] - self.centre)
+
+
+def build_spine(trunk: Trunk, spine: list[int], tail: list[int], named: bool) -> SpineTable:
+    """Return the table; a rigid trunk where fewer than two segments are left.
+
+    A trunk with a single girdle is rigid too, unless a user names its spine: P2's model moves
+    girdles against each other. What lies behind the hindmost girdle becomes part of the tail, and a joint from which the spine
+    would not go on is left out: it rides on its neighbour.
+
+    Args:
+        trunk: the rig.
+        spine: nodes from back to head.
+        tail: nodes from the trunk to the tip.
+        named: a user says what the spine is.
+    """
+    legs = trunk.legs
+    girdles = find_girdles(legs)
+    girdle_rest = np.array(
+        [legs.point_rest[girdles.of_leg == g, 0].mean(axis=0) for g in range(len(girdles.place))]
+    )
+    leg_length = float(legs.length.mean())
+    nodes, behind = list(spine) if named or len(girdles.place) > 1 else [], list(tail)
+    while len(nodes) > 1:
+        pivot = _pivots(trunk, nodes, girdle_rest[0], leg_length)
+        of_girdle = _seat_girdles(trunk, nodes, pivot, girdles.of_leg, girdle_rest, leg_length)
+        if of_girdle[0] > 0:
+            nodes, behind = nodes[of_girdle[0] :], nodes[: of_girdle[0]][::-1] + behind
+            continue
+        fault = _does_not_go_on(pivot, of_girdle, SHORTEST * leg_length)
+        if fault < 0:
+            break
+        nodes.pop(fault - 1 if fault == len(nodes) - 1 else fault)
+    if len(nodes) < 2:
+        return rigid_trunk(len(legs.length), len(trunk.rows), len(girdles.place))
+    row_of = {node: row for row, node in enumerate(trunk.rows)}
+    length = np.linalg.norm(np.diff(pivot, axis=0), axis=1)
+    tail_pivot, behind = _tail_pivots(trunk, nodes[0], behind, SHORTEST * leg_length)
+    tail_length = np.linalg.norm(np.diff(tail_pivot, axis=0), axis=1)
+    of_leg = of_girdle[girdles.of_leg]
+    neck = int(of_girdle[-1]) + 1
+    upright = bool(np.mean(legs.upright) > 0.5)
+    return SpineTable(
+        joint=np.array([row_of[node] for node in nodes], np.int64),
+        pivot_rest=pivot,
+        bone_length=length,
+        limit=default_limits(length, of_girdle, upright, leg_length),
+        hinge=_hinges(trunk, nodes),
+        of_girdle=of_girdle,
+        of_leg=of_leg,
+        of_joint=_seat_joints(trunk, nodes, behind, pivot, tail_pivot, of_leg),
+        girdle_rest=girdle_rest,
+        head=len(nodes) - 1 if neck < len(nodes) else -1,
+        neck=neck,
+        tail_joint=np.array([row_of[node] for node in behind], np.int64),
+        tail_pivot_rest=tail_pivot,
+        tail_length=tail_length,
+        tail_limit=tail_limits(tail_length),
+    )
+
+
+def _pivots(trunk: Trunk, nodes: list[int], hips: FloatArray, leg_length: float) -> FloatArray:
+    """Return [S + 1, 3] where each segment begins, and where the last ends."""
+    between = [_pivot(trunk, a, b) for a, b in zip(nodes[:-1], nodes[1:], strict=True)]
+    begin, along = trunk.place(nodes[0]), trunk.place(nodes[-1]) - trunk.place(nodes[0])
+    bone = between[0] - begin
+    size = float(np.linalg.norm(bone) * np.linalg.norm(along))
+    ahead = begin[2] > hips[2] + AHEAD * leg_length
+    if not bone @ along > LEANS * size or ahead:
+        # Its joint lies at its fore end, or above the hips: these say where the spine begins.
+        back = min(float(hips[2]), float(between[0][2]) - BEGIN_BEHIND * leg_length)
+        begin = np.array([0.0, between[0][1], back])
+    return np.array([begin, *between, _front(trunk, nodes[-1], between[-1])])
+
+
+def _pivot(trunk: Trunk, a: int, b: int) -> FloatArray:
+    """Return where the segments of two joints of a chain meet: at the pivot of the one below.
+
+    Where neither hangs on the other, at the pivot nearer to the seam of their skins.
+    """
+    skeleton = trunk.skeleton
+    if a in skeleton.above(b):
+        return trunk.place(b)
+    if b in skeleton.above(a):
+        return trunk.place(a)
+    shared = np.minimum(skeleton.share([a]), skeleton.share([b]))
+    if not shared.any():
+        return trunk.place(b)
+    seam = shared @ (skeleton.vertex - trunk.centre) / shared.sum()
+    return min((trunk.place(b), trunk.place(a)), key=lambda place: abs(float(place[2] - seam[2])))
+
+
+def _front(trunk: Trunk, node: int, pivot: FloatArray) -> FloatArray:
+    """Return where the last segment ends [3]: the front of its skin."""
+    skin = trunk.skin(node)
+    ahead = skin[skin[:, 2] > pivot[2]]
+    if not len(ahead):
+        return pivot + [0.0, 0.0, float(np.ptp(trunk.skeleton.vertex[:, 2])) * SHORTEST]
+    front = float(np.percentile(ahead[:, 2], FRONT))
+    nose = ahead[ahead[:, 2] > pivot[2] + 0.7 * (front - pivot[2])]
+    return np.array([0.0, float(nose[:, 1].mean()), front])
+
+
+def _seat_girdles(
+    trunk: Trunk,
+    nodes: list[int],
+    pivot: FloatArray,
+    girdle_of_leg: IntArray,
+    girdle_rest: FloatArray,
+    leg_length: float,
+) -> IntArray:
+    """Return [G] the segment of each girdle: by the file's tree where that is near, else nearest.
+
+    A tree that hangs all legs on one root says nothing about girdles.
+    """
+    segment_of = {node: s for s, node in enumerate(nodes)}
+    found = []
+    for g, place in enumerate(girdle_rest):
+        above = []
+        for hip in trunk.legs.joint[girdle_of_leg == g, 0]:
+            joints = trunk.skeleton.above(trunk.rows[int(hip)])
+            above.extend([segment_of[node] for node in joints if node in segment_of][:1])
+        said = max(set(above), key=above.count, default=-1)
+        if said >= 0:
+            low, high = sorted(pivot[said : said + 2, 2])
+            if not low - BESIDE * leg_length <= place[2] <= high + BESIDE * leg_length:
+                said = -1
+        found.append(said if said >= 0 else nearest_bone(pivot[:-1], place))
+    return np.maximum.accumulate(np.array(found, np.int64))
+
+
+def nearest_bone(pivot: FloatArray, place: FloatArray) -> int:
+    """Return which bone of a chain with pivots [S + 1, 3] is nearest to a place [3], in the middle.
+
+    The place is seen from the side.
+    """
+    start, bone = pivot[:-1], np.diff(pivot, axis=0)
+    seen = np.array([0.0, place[1], place[2]])
+    along = np.einsum("si,si->s", seen - start, bone) / np.einsum("si,si->s", bone, bone)
+    away = np.linalg.norm(start + np.clip(along, 0.0, 1.0)[:, None] * bone - seen, axis=1)
+    return int(np.argmin(away))
+
+
+def _does_not_go_on(pivot: FloatArray, of_girdle: IntArray, least: float) -> int:
+    """Return the first segment that is too short, or leads backward within the trunk; -1: none."""
+    step = np.diff(pivot, axis=0)
+    bad = np.linalg.norm(step, axis=1) < least
+    if len(of_girdle) > 1:
+        in_trunk = np.arange(len(step)) <= of_girdle[-1]
+        bad |= in_trunk & (step[:, 2] < least)
+    return int(np.argmax(bad)) if bad.any() else -1
+
+
+def _hinges(trunk: Trunk, nodes: list[int]) -> IntArray:
+    """Return [S] before which segment the joint's own turn is: behind its own, or ahead of it."""
+    hinge = np.arange(len(nodes))
+    for s in range(len(nodes) - 1):
+        if nodes[s + 1] in trunk.skeleton.above(nodes[s]):
+            hinge[s] = s + 1
+    return hinge
+
+
+def _tail_pivots(
+    trunk: Trunk, root: int, tail: list[int], least: float
+) -> tuple[FloatArray, list[int]]:
+    """Return [T + 1, 3] where each segment of the tail begins and the tip, and the joints kept."""
+    kept: list[int] = []
+    pivot: list[FloatArray] = []
+    for node in tail:
+        place = _pivot(trunk, kept[-1] if kept else root, node)
+        if not pivot or float(np.linalg.norm(place - pivot[-1])) >= least:
+            kept.append(node)
+            pivot.append(place)
+    if not kept:
+        return np.zeros((1, 3)), []
+    skin = trunk.skin(kept[-1])
+    away = np.linalg.norm(skin - pivot[-1], axis=1)
+    tip = pivot[-1] + [0.0, 0.0, -least]
+    if len(skin) and float(away.max()) > least:
+        tip = skin[int(away.argmax())] * [0.0, 1.0, 1.0]
+    return np.array([*pivot, tip]), kept
+
+
+def _seat_joints(
+    trunk: Trunk,
+    spine: list[int],
+    tail: list[int],
+    pivot: FloatArray,
+    tail_pivot: FloatArray,
+    of_leg: IntArray,
+) -> IntArray:
+    """Return [J] the segment on which each joint rides that no leg carries, -1 for others.
+
+    By the file's tree where that leads to the spine or the tail, else by the nearest bone to its
+    skin. What carries nothing and hangs on nothing, as the root of a rig, rides on the body.
+    """
+    skeleton, legs = trunk.skeleton, trunk.legs
+    seat = np.full(len(trunk.rows), -1, np.int64)
+    chain = {node: s for s, node in enumerate([*spine, *tail])}
+    driven = {int(row) for table in (legs.joint, legs.foot_joint, legs.toe_joint)
+              for row in table.ravel() if row >= 0}  # fmt: skip
+    hips = {trunk.rows[int(legs.joint[k, 0])]: k for k in range(len(legs.length))}
+    on_leg = np.zeros(len(trunk.rows), np.bool_)
+    for row, node in enumerate(trunk.rows):
+        parent = int(trunk.parent[row])
+        on_leg[row] = row in driven or (parent >= 0 and on_leg[parent])
+        if node in chain:
+            seat[row] = chain[node]
+        elif not on_leg[row]:
+            below = set(skeleton.below(node))
+            carried = {int(of_leg[k]) for hip, k in hips.items() if hip in below}
+            if len(carried) == 1 and not below & set(chain):
+                seat[row] = carried.pop()  # a shoulder goes with its leg
+            elif parent >= 0 and seat[parent] >= 0:
+                seat[row] = seat[parent]
+            elif skeleton.weight[node] > 0.0:
+                seat[row] = _nearest_segment(pivot, tail_pivot, trunk.skin(node), trunk.place(node))
+    return seat
+
+
+def _nearest_segment(
+    pivot: FloatArray, tail_pivot: FloatArray, skin: FloatArray, place: FloatArray
+) -> int:
+    """Return the segment of spine or tail nearest to the middle of some skin, or to a place."""
+    middle = skin.mean(axis=0) if len(skin) else place
+    bones = [*zip(pivot[:-1], pivot[1:], strict=True),
+             *zip(tail_pivot[:-1], tail_pivot[1:], strict=True)]  # fmt: skip
+    return int(np.argmin([_away(np.array(bone), middle) for bone in bones]))
+
+
+def _away(bone: FloatArray, place: FloatArray) -> float:
+    """Return the distance from a place [3] to a bone [2, 3]."""
+    way = bone[1] - bone[0]
+    along = np.clip((place - bone[0]) @ way / max(float(way @ way), 1e-300), 0.0, 1.0)
+    return float(np.linalg.norm(bone[0] + along * way - place))
