@@ -11,6 +11,7 @@ from polypod.body.particles import HARMONICS
 from polypod.morphology.types import BoolArray, IntArray
 from polypod.paths.curve import path_store
 from polypod.routes.state import make_route_state
+from polypod.spine.advancing import MOMENTS, TRACK
 from polypod.state import HerdCommand, HerdState
 
 
@@ -69,7 +70,8 @@ def make_state(
             "caught",
             "caught_clock",
             "shy",
-            "spine_lead",
+            "track_gone",
+            "track_from",
         ),
         (c,),
     )
@@ -147,7 +149,16 @@ def make_state(
         "sway_share": (c, 3),
         "segment_shift": (c, segments + tail, 3),
         "segment_turn": (c, segments + tail, 4),
-        "girdle_bend": (c, girdles, 4),
+        "spine_angle": (c, segments + tail, 3),
+        "spine_base": (c, 3),
+        "spine_wish": (c, segments + tail, 3),
+        "spine_base_wish": (c, 3),
+        "girdle_bend": (c, girdles, 4, 3),
+        "spine_share": (c, 2, 3),
+        "gaze": (c, 3),
+        "tail_sway": (c, tail, 2, 3),
+        "track": (c, TRACK),
+        "way_ahead": (c, MOMENTS, 2),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),
     }

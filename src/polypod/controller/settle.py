@@ -25,6 +25,7 @@ from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 from polypod.morphology.roll import FLAT
+from polypod.spine.chain import keep_bend, place_segments
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
@@ -221,6 +222,7 @@ def settle_body(
         turned = slerp(turn_before, turn, share)
         heading = heading_before + share * turning
         apart = True
+        place_segments(c, share, state, tables)
         if near > 0 and share > 0.0:
             x, z, apart = apart_from(c, near, position.x, position.z, heading, state, scratch)
             position = Vec3(x, position.y, z)
@@ -234,6 +236,7 @@ def settle_body(
                     break
         if fits or share == 0.0:
             state.held[c] = share
+            keep_bend(c, share, state, tables)
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
             state.heading[c] = wrapped(heading)

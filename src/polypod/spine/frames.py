@@ -53,9 +53,9 @@ def girdle_ahead(c: int, g: int, then: PlanPose, state: Any, tables: Any) -> tup
     the body's own circle. What it is off that now it makes up for on the way there. What a gait
     bends a spine by is left out, as are nod and sway.
     """
-    left = float(state.girdle_bend[c, g, 0])
-    yaw = float(state.girdle_bend[c, g, 2])
-    lead = state.spine_lead[c]
+    left = float(state.girdle_bend[c, g, 0, 0])
+    yaw = float(state.girdle_bend[c, g, 2, 0])
+    lead = state.spine_share[c, 0, 0]
     if lead <= 0.0:
         return left, yaw
     place = float(tables.girdles.place[g])
@@ -85,8 +85,8 @@ def leg_frame_at(
         return position, turn
     g = tables.girdles.of_leg[k]
     left, yaw = girdle_ahead(c, g, then, state, tables)
-    pitch = from_axis_angle(Vec3(1.0, 0.0, 0.0), -state.girdle_bend[c, g, 3])
+    pitch = from_axis_angle(Vec3(1.0, 0.0, 0.0), -state.girdle_bend[c, g, 3, 0])
     carried = from_heading(yaw) * pitch
     rest = load_vec3(tables.spine.girdle_rest[g])
-    shift = rest + Vec3(left, state.girdle_bend[c, g, 1], 0.0) - rotate(carried, rest)
+    shift = rest + Vec3(left, state.girdle_bend[c, g, 1, 0], 0.0) - rotate(carried, rest)
     return position + rotate(turn, shift), turn * carried

@@ -8,30 +8,77 @@ import numpy as np
 
 from polypod.morphology.girdles import Girdles
 from polypod.morphology.spine import SpineTable
-from polypod.morphology.types import FloatArray
+from polypod.morphology.types import FloatArray, IntArray
+from polypod.spine.advancing import TRACK
+
+# The track behind is kept as far as tail or trunk reach, and a little farther.
+BEHIND = 1.05
 
 
 class BendTable(NamedTuple):
-    """The G girdles of a spine as nodes of a curve; body frame, m."""
+    """G girdles as nodes of a curve along the S segments of a spine."""
 
     most_yaw: FloatArray  # [G] rad by which limits let a girdle turn against the body's axis
+    yaw_gap: FloatArray  # [G] rad, and against the next girdle ahead; 0 for the foremost
+    neck_range: FloatArray  # [3] rad: yaw, pitch and roll of all joints of the neck together
+    first_girdle: IntArray  # [S] the hindmost girdle on a segment, -1: none
+    last_girdle: IntArray  # [S] the foremost
+    behind: IntArray  # [S] of a segment without one: the next girdle behind
+    begin: FloatArray  # [S] where it begins and ends at rest, shares of the way from that girdle
+    end: FloatArray  # [S] to the next
+    track_step: float  # m, from one place of the track behind to the next
 
 
 def make_bend_table(spine: SpineTable, girdles: Girdles) -> BendTable:
     """Return what is made from the spine's segments and its girdles."""
-    return BendTable(most_yaw(spine, girdles))
+    segments = len(spine.joint)
+    first = np.full(segments, -1, np.int64)
+    last = np.full(segments, -1, np.int64)
+    behind = np.full(segments, -1, np.int64)
+    begin, end = np.zeros(segments), np.zeros(segments)
+    for g, s in enumerate(spine.of_girdle if segments else ()):
+        first[s] = g if first[s] < 0 else first[s]
+        last[s] = g
+    z = spine.pivot_rest[:, 2]
+    for s in range(min(spine.neck, segments)):
+        if first[s] >= 0:
+            continue
+        g = int(np.searchsorted(spine.of_girdle, s) - 1)
+        span = girdles.place[g + 1] - girdles.place[g]
+        behind[s] = g
+        begin[s], end[s] = np.clip((z[s : s + 2] - girdles.place[g]) / span, 0.0, 1.0)
+        if end[s] - begin[s] < 1e-3:
+            begin[s], end[s] = max(end[s] - 0.5, 0.0), min(begin[s] + 0.5, 1.0)
+    back = min(float(girdles.place[0]), float(z[0]), float(spine.tail_pivot_rest[:, 2].min()))
+    reach = max(BEHIND * -back, 1e-6)
+    return BendTable(
+        most_yaw=most_yaw(spine, girdles),
+        yaw_gap=yaw_gap(spine, girdles),
+        neck_range=spine.limit[spine.neck :].sum(axis=0).reshape(3) if segments else np.zeros(3),
+        first_girdle=first,
+        last_girdle=last,
+        behind=behind,
+        begin=begin,
+        end=end,
+        track_step=reach / (TRACK - 2),
+    )
+
+
+def yaw_gap(spine: SpineTable, girdles: Girdles) -> FloatArray:
+    """Return [G] how far, rad, each girdle may yaw against the next one ahead."""
+    gap = np.zeros(len(girdles.place))
+    for g in range(len(gap) - 1):
+        if len(spine.joint):
+            joints = slice(spine.of_girdle[g] + 1, spine.of_girdle[g + 1] + 1)
+            gap[g] = spine.limit[joints, 0].sum()
+    return gap
 
 
 def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
     """Return [G] how far, rad, limits let each girdle turn against the body's axis.
 
-    All of the bends between the hindmost and the foremost, divided by where they are along it.
+    All that the spine bends from the hindmost to the foremost, shared as they lie along it.
     """
-    count = len(girdles.place)
-    most = np.zeros(count)
-    if not len(spine.joint) or count < 2:
-        return most
-    first, last = int(spine.of_girdle[0]), int(spine.of_girdle[-1])
     span = float(girdles.place[-1] - girdles.place[0])
-    whole = float(spine.limit[first + 1 : last + 1, 0].sum())
-    return np.asarray(whole * np.abs(girdles.place) / span)
+    whole = float(yaw_gap(spine, girdles).sum())
+    return np.asarray(whole * np.abs(girdles.place) / span) if span > 0.0 else 0.0 * girdles.place
