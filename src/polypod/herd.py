@@ -104,7 +104,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         ik=ik,
         girdles=girdles,
         spine=morphology.segments,
-        bend=make_bend_table(morphology.segments, girdles),
+        bend=make_bend_table(morphology.segments, girdles, leg_length),
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,

@@ -20,7 +20,7 @@ from polypod.spine.tail import swing_tail
 
 # Girdles follow what they are to do within so many leg pendulum times, and the head.
 SMOOTH = 0.6
-SMOOTH_GAZE = 1.6
+SMOOTH_GAZE = 0.5
 # What `follow` lags behind what moves steadily by, shares of its time.
 LAG = 0.75
 # How much a spine bends follows settings and course within so many leg pendulum times.

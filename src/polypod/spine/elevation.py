@@ -14,18 +14,20 @@ import math
 from typing import Any
 
 from polypod.body.smoothing import follow
-from polypod.body.support import FeetPlane, foot_on_its_way
+from polypod.body.support import FeetPlane
 from polypod.compute import kernel
 from polypod.controller.rest import place_body
 
-# Share of a foot's pitch that its girdle takes on, and of its yaw at most: erect legs flex their
-# spine, sprawling ones yaw their girdles.
+# Share of a foot's pitch that its girdle takes on: erect legs flex their spine.
 FLEXION = 0.35
-MOST_YAW_SHARE = 0.9
-# A sprawler's pelvis yaws by so much either way whatever its speed (Ritter 1992), rad; less where
-# its steps are so short that they take no more than the yaw's greatest share.
+# Sprawling legs yaw their girdles: a lizard's pelvis by so much either way whatever its speed
+# (Ritter 1992), rad. Less where its steps are so short that it would yaw so many times as far as its
+# feet, and where girdles are close together, as a centipede's.
 PELVIC_YAW = math.radians(18.0)
+MOST_YAW_SHARE = 2.0
 LEAST_YAW = 0.02
+# Feet that step far for once yaw a girdle by no more than so many times that.
+BEYOND = 1.15
 
 
 @kernel
@@ -36,19 +38,25 @@ def carry_girdles(
 
     Two girdles are on that plane; of more each has its own height, and its pitch by the next ones'.
     """
-    count = tables.girdles.place.shape[0]
+    girdles = tables.girdles
+    count = girdles.place.shape[0]
     if count < 3:
         return
+    share = state.spine_share[c, 1, 0]
+    mean = 0.0
+    middle = 0.0
+    for k in range(tables.legs.length.shape[0]):
+        mean += state.foot_target[c, k, 1] / tables.legs.length.shape[0]
+        middle += girdles.place[girdles.of_leg[k]] / tables.legs.length.shape[0]
     bend = state.girdle_bend[c]
     for g in range(count):
         up = 0.0
         feet = 0
         for k in range(tables.legs.length.shape[0]):
-            if tables.girdles.of_leg[k] == g:
-                up += foot_on_its_way(c, k, state).y
+            if girdles.of_leg[k] == g:
+                up += state.foot_target[c, k, 1]
                 feet += 1
-        level = plane.height + plane.slope_forward * tables.girdles.place[g]
-        share = state.spine_share[c, 1, 0]
+        level = mean + plane.slope_forward * (girdles.place[g] - middle)
         follow(bend[g, 1], share * (up / feet - level), seconds, dt)
     for g in range(count):
         bend[g, 3, 0] = math.atan(slope_at(g, bend[:, 1, 0], tables))
@@ -127,18 +135,23 @@ def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: A
             )
             size += step_yaw(c, k, stand.x, state, command)
         node[g, 3] += share * settings.spine_flexion * FLEXION * pitch / feet
-        part = min(PELVIC_YAW * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
-        node[g, 2] += share * settings.spine_yaw * part * yaw / feet
+        whole = tables.bend.apart * PELVIC_YAW
+        part = min(whole * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
+        most = whole * BEYOND
+        turned = min(max(part * yaw / feet, -most), most)
+        node[g, 2] += share * settings.spine_yaw * turned
 
 
 @kernel
 def step_yaw(c: int, k: int, beside: float, state: Any, command: Any) -> float:
-    """Return how far a foot's stance turns it about its girdle to either side, rad.
+    """Return how far to either side a foot turns about its girdle with its partner in turns, rad.
 
-    `beside` is how far beside the girdle it rests, m.
+    `beside` is how far beside the girdle it rests, m. While one foot is at its end the partner, half
+    a cycle behind, is the nearer to the other end the less they overlap.
     """
     rate = state.cycle_rate[c]
     if rate <= 0.0:
         return 0.0
-    way = state.speed[c] * math.cos(command.travel[c]) * (1.0 - state.swing_extent[c, k]) / rate
-    return math.atan2(0.5 * abs(way), abs(beside))
+    duty = 1.0 - state.swing_extent[c, k]
+    way = state.speed[c] * math.cos(command.travel[c]) * duty / rate
+    return math.atan2(0.5 * abs(way), abs(beside)) * min(1.0, 0.5 / duty)

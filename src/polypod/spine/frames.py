@@ -12,15 +12,14 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.controller.steering import PlanPose
+from polypod.controller.steering import PlanPose, wrapped
 from polypod.math.quat import Quat, from_axis_angle, from_heading, load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3
+from polypod.spine.advancing import yaw_along
 
-# A girdle is on its new course when it has gone its own distance from the body centre so many
-# times: then as much is left of its old one as an exponential leaves.
-CARRY = 1.5
-# Slower than this, leg lengths a pendulum time, a turn is one on the spot, and leads nowhere.
-SLOWEST = 0.05
+# How quickly a girdle is on the track that it is off: for its own distance from the body centre that
+# the body goes, or a radian that it turns, as an exponential of so much.
+CARRY = 3.0
 
 
 @kernel
@@ -49,28 +48,28 @@ def leg_frame(
 def girdle_ahead(c: int, g: int, then: PlanPose, state: Any, tables: Any) -> tuple[float, float]:
     """Return how far to the left of the body's axis a girdle will be, m, and its yaw against it.
 
-    At a later pose of the body. Each girdle follows the track (P2 5.2): on a steady arc it is on
-    the body's own circle. What it is off that now it makes up for on the way there. What a gait
+    At a later pose of the body. It follows the track (P2 5.2): when the body has gone on, the
+    girdle behind is where the track is known, and the one ahead where the way leads. What a gait
     bends a spine by is left out, as are nod and sway.
     """
     left = float(state.girdle_bend[c, g, 0, 0])
     yaw = float(state.girdle_bend[c, g, 2, 0])
     lead = state.spine_share[c, 0, 0]
-    if lead <= 0.0:
-        return left, yaw
-    place = float(tables.girdles.place[g])
     gone_x = then.x - state.position[c, 0]
     gone_z = then.z - state.position[c, 2]
     gone = math.sqrt(gone_x * gone_x + gone_z * gone_z)
-    slowest = SLOWEST * tables.leg_length / tables.pendulum_time
+    turned = wrapped(then.heading - state.heading[c])
+    if lead <= 0.0 or (gone == 0.0 and turned == 0.0):
+        return left, yaw
+    place = float(tables.girdles.place[g])
     most = tables.bend.most_yaw[g]
-    arc = then.turn_rate * place / max(then.speed, slowest)
-    arc = lead * min(max(arc, -most), most)
-    share = math.exp(-CARRY * gone / max(abs(place), 1e-9))
-    return (
-        0.5 * arc * place + (left - 0.5 * arc * place) * share,
-        arc + (yaw - arc) * share,
-    )
+    along = yaw_along(c, place + gone, state, tables)
+    later = min(max(lead * (along - turned), -most), most)
+    # What it is off the track now it makes up for on the way there.
+    share = math.exp(-CARRY * gone / max(abs(place), 1e-9) - CARRY * abs(turned))
+    now = min(max(lead * yaw_along(c, place, state, tables), -most), most)
+    yaw = later + (yaw - now) * share
+    return 0.5 * yaw * place, yaw
 
 
 @kernel

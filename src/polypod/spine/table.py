@@ -11,8 +11,13 @@ from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import FloatArray, IntArray
 from polypod.spine.advancing import TRACK
 
+# Of what joints allow the track takes so much: the rest is for what a gait bends a spine by.
+FOR_TURNS = 0.8
 # The track behind is kept as far as tail or trunk reach, and a little farther.
 BEHIND = 1.05
+# Girdles nearer to each other than this, leg lengths, yaw less by their feet, by the square: a wave
+# of many of them would lead each aside.
+APART = 1.2
 
 
 class BendTable(NamedTuple):
@@ -20,6 +25,8 @@ class BendTable(NamedTuple):
 
     most_yaw: FloatArray  # [G] rad by which limits let a girdle turn against the body's axis
     yaw_gap: FloatArray  # [G] rad, and against the next girdle ahead; 0 for the foremost
+    apart: float  # 1; less where girdles are nearer to each other than `APART`
+    tightest: float  # 1/m, the curvature of the tightest arc on which the trunk can lie; 0: rigid
     neck_range: FloatArray  # [3] rad: yaw, pitch and roll of all joints of the neck together
     first_girdle: IntArray  # [S] the hindmost girdle on a segment, -1: none
     last_girdle: IntArray  # [S] the foremost
@@ -29,8 +36,9 @@ class BendTable(NamedTuple):
     track_step: float  # m, from one place of the track behind to the next
 
 
-def make_bend_table(spine: SpineTable, girdles: Girdles) -> BendTable:
-    """Return what is made from the spine's segments and its girdles."""
+def make_bend_table(spine: SpineTable, girdles: Girdles, leg_length: float) -> BendTable:
+    """Return what is made from the spine's segments and its girdles; m."""
+    count = len(girdles.place)
     segments = len(spine.joint)
     first = np.full(segments, -1, np.int64)
     last = np.full(segments, -1, np.int64)
@@ -54,6 +62,9 @@ def make_bend_table(spine: SpineTable, girdles: Girdles) -> BendTable:
     return BendTable(
         most_yaw=most_yaw(spine, girdles),
         yaw_gap=yaw_gap(spine, girdles),
+        apart=min(1.0, float(np.ptp(girdles.place)) / max(count - 1, 1) / (APART * leg_length))
+        ** 2,
+        tightest=tightest(spine, girdles),
         neck_range=spine.limit[spine.neck :].sum(axis=0).reshape(3) if segments else np.zeros(3),
         first_girdle=first,
         last_girdle=last,
@@ -70,8 +81,14 @@ def yaw_gap(spine: SpineTable, girdles: Girdles) -> FloatArray:
     for g in range(len(gap) - 1):
         if len(spine.joint):
             joints = slice(spine.of_girdle[g] + 1, spine.of_girdle[g + 1] + 1)
-            gap[g] = spine.limit[joints, 0].sum()
+            gap[g] = FOR_TURNS * spine.limit[joints, 0].sum()
     return gap
+
+
+def tightest(spine: SpineTable, girdles: Girdles) -> float:
+    """Return the curvature, 1/m, of the tightest arc on which a trunk can lie; 0: it is rigid."""
+    span = float(girdles.place[-1] - girdles.place[0])
+    return float(yaw_gap(spine, girdles).sum()) / span if span > 0.0 else 0.0
 
 
 def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
@@ -79,6 +96,4 @@ def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
 
     All that the spine bends from the hindmost to the foremost, shared as they lie along it.
     """
-    span = float(girdles.place[-1] - girdles.place[0])
-    whole = float(yaw_gap(spine, girdles).sum())
-    return np.asarray(whole * np.abs(girdles.place) / span) if span > 0.0 else 0.0 * girdles.place
+    return np.asarray(tightest(spine, girdles) * np.abs(girdles.place))
