@@ -22,7 +22,8 @@ NOT_HEAD = ("back", "abdomen")
 NOT_BONES = ("belly", "udder", "skirt", "cape", "cloth", "hair", "mane", "saddle", "rider", "wing")
 # Of a leg's length:
 OFF_MIDDLE = 0.05  # joints of the spine are no farther from the middle plane
-NEAR_HIPS = 0.1  # so far ahead of the hind hips the spine may begin
+NEAR_HIPS = 0.1  # so far ahead of the hind hips the spine may begin,
+BEHIND_HIPS = 0.15  # and so far behind them
 BELOW_HIPS = 0.6  # joints of the spine lie no lower: a rig's root is often on the ground
 LEAST_TAIL = 0.15  # a tail is longer
 
@@ -51,9 +52,14 @@ class Middle:
         """Return a node's ancestors among some nodes, the topmost first, and the node."""
         return [other for other in self.skeleton.above(node)[::-1] if other in among] + [node]
 
-    def z(self, node: int) -> float:
-        """Return how far forward a node is, m."""
-        return float(self.skeleton.position[node, 2])
+    def back(self, node: int) -> float:
+        """Return how far back a joint or the middle of the skin that it carries is, z in m.
+
+        A joint that hangs on the one ahead of it lies at the fore end of its bone.
+        """
+        skin = self.skeleton.vertex[self.skeleton.carrier == node, 2]
+        place = float(self.skeleton.position[node, 2])
+        return min(place, float(skin.mean())) if len(skin) else place
 
 
 def leg_nodes(skeleton: Skeleton, limbs: list[Limb]) -> set[int]:
@@ -111,17 +117,19 @@ def _front(skeleton: Skeleton, node: int) -> float:
 
 def _back_to_the_hips(middle: Middle, trunk: set[int], chain: list[int]) -> list[int]:
     """Return the chain with the joints before it that lie between the hind hips and its start."""
-    limit = float(middle.hip[:, 2].min()) + NEAR_HIPS * middle.length
-    while middle.z(chain[0]) > limit:
-        ahead = {node for top in chain[1:] for node in middle.skeleton.below(top)} | set(chain)
-        nearer = middle.z(chain[0]) - 1e-3 * middle.length
-        behind = [n for n in sorted(trunk - ahead) if limit < middle.z(n) < nearer]
-        if not behind:
-            # A pelvis at the end of a spine that the chest carries lies where the hips are.
-            behind = [n for n in _carriers(middle, trunk - ahead) if middle.z(n) < nearer]
-        if not behind:
+    hips = float(middle.hip[:, 2].min())
+    behind = hips - BEHIND_HIPS * middle.length
+    while middle.back(chain[0]) > hips + NEAR_HIPS * middle.length:
+        ahead = {node for top in chain[1:] for node in middle.skeleton.below(top)}
+        ahead = ahead - set(middle.skeleton.below(chain[0])) | set(chain)
+        nearer = middle.back(chain[0]) - 1e-3 * middle.length
+        found = [node for node in sorted(trunk - ahead) if behind < middle.back(node) < nearer]
+        if not found:
+            # A pelvis that reaches far behind its hips.
+            found = [n for n in _carriers(middle, trunk - ahead) if middle.back(n) < nearer]
+        if not found:
             break
-        chain = [max(behind, key=middle.z), *chain]
+        chain = [max(found, key=middle.back), *chain]
     return chain
 
 
@@ -140,17 +148,20 @@ def find_tail(middle: Middle, spine: list[int]) -> list[int]:
     """Return the nodes of the tail, from the trunk to the tip, or none.
 
     It is the longest chain of joints on the middle plane that is named so, or else that begins at
-    the hind hips or behind them and leads away from the head.
+    the hind hips or behind them and leads backward.
     """
     skeleton = middle.skeleton
-    usable = set(middle.joints) - set(spine)
+    usable = set(middle.joints) - {
+        above for node in spine for above in (node, *skeleton.above(node))
+    }
     hips = float(middle.hip[:, 2].min())
     found: list[tuple[bool, float, list[int]]] = []
     for tip in sorted(usable):
         chain = middle.chain_to(tip, usable)
         named = has_word(skeleton.name[chain[-1]], *TAIL_NAMES)
         points = np.array([*skeleton.position[chain], _end(skeleton, chain[-1])])
-        leads_back = points[-1, 2] < points[0, 2] < hips + NEAR_HIPS * middle.length
+        near = NEAR_HIPS * middle.length
+        leads_back = points[0, 2] < hips + near and points[-1, 2] < min(points[0, 2], hips) - near
         reach = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
         if (named or leads_back) and reach >= LEAST_TAIL * middle.length:
             found.append((named, reach, chain))

@@ -36,9 +36,12 @@ class Trunk:
     girdles: Girdles
 
     def place(self, node: int) -> FloatArray:
-        """Return where a node is at rest [3], body frame, on the middle plane."""
-        place = self.skeleton.position[node] - self.centre
-        return np.array([0.0, place[1], place[2]])
+        """Return where a node is at rest [3], body frame.
+
+        Off the middle plane where the file has it so, by a little: else the joints of a record
+        would not stay as far apart as they are.
+        """
+        return np.asarray(self.skeleton.position[node] - self.centre)
 
     def skin(self, node: int) -> FloatArray:
         """Return the skin [V, 3] that a node carries, body frame."""
@@ -109,7 +112,7 @@ def _pivots(trunk: Trunk, nodes: list[int], hips: FloatArray, leg_length: float)
     if not bone @ along > LEANS * size or ahead:
         # Its joint lies at its fore end, or above the hips: these say where the spine begins.
         back = min(float(hips[2]), float(between[0][2]) - BEGIN_BEHIND * leg_length)
-        begin = np.array([0.0, between[0][1], back])
+        begin = np.array([*between[0][:2], back])
     return np.array([begin, *between, _front(trunk, nodes[-1], between[-1])])
 
 
@@ -136,10 +139,10 @@ def _front(trunk: Trunk, node: int, pivot: FloatArray) -> FloatArray:
     ahead = skin[skin[:, 2] > pivot[2]]
     if not len(ahead):
         length = float(np.ptp(trunk.skeleton.vertex[:, 2]))
-        return np.array([0.0, pivot[1], pivot[2] + SHORTEST * length])
+        return np.array([*pivot[:2], pivot[2] + 2.0 * SHORTEST * length])
     front = float(np.percentile(ahead[:, 2], FRONT))
     nose = ahead[ahead[:, 2] > pivot[2] + 0.7 * (front - pivot[2])]
-    return np.array([0.0, float(nose[:, 1].mean()), front])
+    return np.array([pivot[0], float(nose[:, 1].mean()), front])
 
 
 def _by_tree(trunk: Trunk, nodes: list[int], pivot: FloatArray, girdle: int, far: float) -> int:
@@ -181,13 +184,11 @@ def _guesses(trunk: Trunk, nodes: list[int], of_girdle: IntArray, by_tree: list[
 
 
 def nearest_bone(pivot: FloatArray, place: FloatArray) -> int:
-    """Return which bone of a chain with pivots [S + 1, 3] is nearest to a place [3], in the middle.
-
-    The place is seen from the side.
-    """
-    start, bone = pivot[:-1], np.diff(pivot, axis=0)
-    seen = np.array([0.0, place[1], place[2]])
-    along = np.einsum("si,si->s", seen - start, bone) / np.einsum("si,si->s", bone, bone)
+    """Return which bone of a chain with pivots [S + 1, 3] is nearest to a place [3] from aside."""
+    side = pivot[:, 1:]
+    start, bone, seen = side[:-1], np.diff(side, axis=0), place[1:]
+    square = np.maximum(np.einsum("si,si->s", bone, bone), 1e-300)
+    along = np.einsum("si,si->s", seen - start, bone) / square
     away = np.linalg.norm(start + np.clip(along, 0.0, 1.0)[:, None] * bone - seen, axis=1)
     return int(np.argmin(away))
 
@@ -226,9 +227,9 @@ def _tail_pivots(
         return np.zeros((1, 3)), []
     skin = trunk.skin(kept[-1])
     away = np.linalg.norm(skin - pivot[-1], axis=1)
-    tip = pivot[-1] + [0.0, 0.0, -least]
+    tip = pivot[-1] - [0.0, 0.0, 2.0 * least]
     if len(skin) and float(away.max()) > least:
-        tip = skin[int(away.argmax())] * [0.0, 1.0, 1.0]
+        tip = np.array([pivot[-1][0], *skin[int(away.argmax()), 1:]])
     return np.array([*pivot, tip]), kept
 
 

@@ -148,15 +148,15 @@ def build() -> BuiltIn:
     centaur.chain(HIND_NAMES, HIND_LEG, "Pelvis")
     centaur.chain(MIDDLE_NAMES, MIDDLE_LEG, "Withers")
     centaur.chain(FORE_NAMES, FORE_LEG, "Chest")
-    hide = centaur.add(body(HIDE_SECTIONS, rings=84, sides=26), names, HIDE_PAINT, blend=0.48)
+    hide = centaur.add(body(HIDE_SECTIONS, rings=76, sides=24), names, HIDE_PAINT, blend=0.48)
     limbs = [_tail(centaur, tail)]
-    hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=14)
+    hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=12)
     limbs.append(centaur.add(hind, ("Pelvis", *HIND_NAMES), LEG_PAINT))
     for blade, points, carrier, bones in (
         (MIDDLE_BLADE, MIDDLE_LEG, "Withers", MIDDLE_NAMES),
         (FORE_BLADE, FORE_LEG, "Chest", FORE_NAMES),
     ):
-        arm = limb((blade, *points), FORE_PROFILE, sides=14, corner=0.4)
+        arm = limb((blade, *points), FORE_PROFILE, sides=12, corner=0.4)
         limbs.append(centaur.add(arm, (carrier, *bones), ARM_PAINT))
     centaur.fuse(hide, limbs, SEAM)
     _head(centaur)
@@ -182,7 +182,7 @@ def _tail(centaur: Sculpture, names: list[str]) -> Piece:
             (6.0, 0.012),
             (7.0, 0.0),
         ),
-        sides=14,
+        sides=12,
         side=(-1.0, 0.0, 0.0),
     )
     rings = tuple((place, 0.12, DUSK) for place in np.arange(1.2, 6.8, 0.55).tolist())
