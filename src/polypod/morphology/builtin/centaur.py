@@ -148,7 +148,7 @@ def build() -> BuiltIn:
     centaur.chain(HIND_NAMES, HIND_LEG, "Pelvis")
     centaur.chain(MIDDLE_NAMES, MIDDLE_LEG, "Withers")
     centaur.chain(FORE_NAMES, FORE_LEG, "Chest")
-    hide = centaur.add(body(HIDE_SECTIONS, rings=76, sides=24), names, HIDE_PAINT, blend=0.48)
+    hide = centaur.add(body(HIDE_SECTIONS, rings=74, sides=22), names, HIDE_PAINT, blend=0.48)
     limbs = [_tail(centaur, tail)]
     hind = limb((HAUNCH, *HIND_LEG[1:]), HIND_PROFILE, sides=12)
     limbs.append(centaur.add(hind, ("Pelvis", *HIND_NAMES), LEG_PAINT))
@@ -182,7 +182,7 @@ def _tail(centaur: Sculpture, names: list[str]) -> Piece:
             (6.0, 0.012),
             (7.0, 0.0),
         ),
-        sides=12,
+        sides=14,
         side=(-1.0, 0.0, 0.0),
     )
     rings = tuple((place, 0.12, DUSK) for place in np.arange(1.2, 6.8, 0.55).tolist())
