@@ -17,11 +17,49 @@ from polypod.morphology.skeleton import Skeleton
 FloatArray = NDArray[np.float64]
 
 HEAD_NAMES = ("head", "skull")
-NOT_HEAD = ("tail", "back", "abdomen")
-OFF_MIDDLE = 0.05  # of a leg's length: joints of the spine are no farther from the middle plane
-NEAR_HIPS = 0.1  # of a leg's length: so far ahead of the hind hips the spine may begin
-LEAST_TAIL = 0.15  # of a leg's length
-TAIL_BEHIND = 0.25  # of a leg's length: so far ahead of the hind hips a tail may begin
+TAIL_NAMES = ("tail",)
+NOT_HEAD = ("back", "abdomen")
+NOT_BONES = ("belly", "udder", "skirt", "cape", "cloth", "hair", "mane", "saddle", "rider", "wing")
+# Of a leg's length:
+OFF_MIDDLE = 0.05  # joints of the spine are no farther from the middle plane
+NEAR_HIPS = 0.1  # so far ahead of the hind hips the spine may begin,
+BEHIND_HIPS = 0.15  # and so far behind them
+BELOW_HIPS = 0.6  # joints of the spine lie no lower: a rig's root is often on the ground
+LEAST_TAIL = 0.15  # a tail is longer
+
+
+class Middle:
+    """The joints on the middle plane that carry skin and belong to no leg."""
+
+    def __init__(self, skeleton: Skeleton, limbs: list[Limb], hip: FloatArray) -> None:
+        self.skeleton = skeleton
+        self.limbs = limbs  # K of them
+        self.hip = hip  # [K, 3]
+        self.length = float(np.mean([limb.length for limb in limbs]))
+        in_leg = leg_nodes(skeleton, limbs)
+        middle = 0.5 * float(hip[:, 0].min() + hip[:, 0].max())
+        self.joints = [
+            node
+            for node in range(len(skeleton.name))
+            if skeleton.is_joint[node]
+            and skeleton.weight[node] > 0.0
+            and node not in in_leg
+            and not has_word(skeleton.name[node], *NOT_BONES)
+            and abs(float(skeleton.position[node, 0]) - middle) < OFF_MIDDLE * self.length
+        ]
+
+    def chain_to(self, node: int, among: set[int]) -> list[int]:
+        """Return a node's ancestors among some nodes, the topmost first, and the node."""
+        return [other for other in self.skeleton.above(node)[::-1] if other in among] + [node]
+
+    def back(self, node: int) -> float:
+        """Return how far back a joint or the middle of the skin that it carries is, z in m.
+
+        A joint that hangs on the one ahead of it lies at the fore end of its bone.
+        """
+        skin = self.skeleton.vertex[self.skeleton.carrier == node, 2]
+        place = float(self.skeleton.position[node, 2])
+        return min(place, float(skin.mean())) if len(skin) else place
 
 
 def leg_nodes(skeleton: Skeleton, limbs: list[Limb]) -> set[int]:
@@ -30,113 +68,108 @@ def leg_nodes(skeleton: Skeleton, limbs: list[Limb]) -> set[int]:
     return {node for top in tops for node in skeleton.below(top)}
 
 
-def middle_joints(skeleton: Skeleton, limbs: list[Limb], hip: FloatArray) -> list[int]:
-    """Return the joints on the middle plane that carry skin and belong to no leg."""
-    length = float(np.mean([limb.length for limb in limbs]))
-    middle = 0.5 * float(hip[:, 0].min() + hip[:, 0].max())
-    in_leg = leg_nodes(skeleton, limbs)
-    return [
-        node
-        for node in range(len(skeleton.name))
-        if skeleton.is_joint[node]
-        and skeleton.weight[node] > 0.0
-        and node not in in_leg
-        and abs(float(skeleton.position[node, 0]) - middle) < OFF_MIDDLE * length
-    ]
-
-
-def find_spine(skeleton: Skeleton, limbs: list[Limb], hip: FloatArray) -> list[int]:
+def find_spine(middle: Middle) -> list[int]:
     """Return the nodes from the back to the head, or none where the trunk is one piece.
 
     The head is the joint on the middle plane that is named so, or else the foremost end of a chain
-    of such joints; the spine is what leads there without a break in the skin, and, where that
-    begins ahead of the hind hips, the joints that lie between.
+    of such joints; the spine is what leads there, and, where that begins ahead of the hind hips,
+    the joints that lie between.
     """
-    length = float(np.mean([limb.length for limb in limbs]))
-    usable = middle_joints(skeleton, limbs, hip)
-    chains = [_chain_to(skeleton, usable, head) for head in _heads(skeleton, usable, hip, length)]
+    lowest = float(middle.hip[:, 1].mean()) - BELOW_HIPS * middle.length
+    trunk = {
+        node
+        for node in middle.joints
+        if middle.skeleton.position[node, 1] > lowest
+        and not has_word(middle.skeleton.name[node], *TAIL_NAMES)
+    }
+    chains = [middle.chain_to(head, trunk) for head in _heads(middle, trunk)]
     best = max(chains, key=len, default=[])
-    if best:
-        best = _back_to_the_hips(skeleton, usable, best, float(hip[:, 2].min()), length)
-    return best if len(best) >= 3 else []
+    return _back_to_the_hips(middle, trunk, best) if best else []
 
 
-def _heads(skeleton: Skeleton, usable: list[int], hip: FloatArray, length: float) -> list[int]:
+def _heads(middle: Middle, trunk: set[int]) -> list[int]:
     """Return the joints that may be the head."""
+    skeleton, hip = middle.skeleton, middle.hip
     named = [
         node
-        for node in usable
+        for node in sorted(trunk)
         if has_word(skeleton.name[node], *HEAD_NAMES)
         and not has_word(skeleton.name[skeleton.parent[node]], *HEAD_NAMES)
     ]
     if named:
         return named
-    ends = [node for node in usable if not set(skeleton.children[node]) & set(usable)]
     return [
         node
-        for node in ends
-        if not has_word(skeleton.name[node], *NOT_HEAD)
-        and skeleton.position[node, 2] > hip[:, 2].max() - 0.1 * length
-        and skeleton.position[node, 1] > hip[:, 1].mean() - 0.3 * length
+        for node in sorted(trunk)
+        if not set(skeleton.children[node]) & trunk
+        and not has_word(skeleton.name[node], *NOT_HEAD)
+        and _front(skeleton, node) > hip[:, 2].max() - 0.1 * middle.length
+        and skeleton.position[node, 1] > hip[:, 1].mean() - 0.3 * middle.length
     ]
 
 
-def _chain_to(skeleton: Skeleton, usable: list[int], head: int) -> list[int]:
-    """Return the way to the head from its topmost usable ancestor, without a gap."""
-    chain = [head]
-    while int(skeleton.parent[chain[-1]]) in usable:
-        chain.append(int(skeleton.parent[chain[-1]]))
-    return chain[::-1]
+def _front(skeleton: Skeleton, node: int) -> float:
+    """Return how far forward a node or most of the skin that it carries reaches, m."""
+    skin = skeleton.vertex[skeleton.carrier == node, 2]
+    ahead = float(np.percentile(skin, 90.0)) if len(skin) else -np.inf
+    return max(float(skeleton.position[node, 2]), ahead)
 
 
-def _back_to_the_hips(
-    skeleton: Skeleton, usable: list[int], chain: list[int], hips: float, length: float
-) -> list[int]:
+def _back_to_the_hips(middle: Middle, trunk: set[int], chain: list[int]) -> list[int]:
     """Return the chain with the joints before it that lie between the hind hips and its start."""
-    place = skeleton.position
-    while place[chain[0], 2] > hips + NEAR_HIPS * length:
-        ahead = {node for top in chain[1:] for node in skeleton.below(top)}
-        behind = [
-            node
-            for node in usable
-            if node not in ahead
-            and node != chain[0]
-            and hips + NEAR_HIPS * length < place[node, 2] < place[chain[0], 2] - 1e-3 * length
-        ]
-        if not behind:
+    hips = float(middle.hip[:, 2].min())
+    behind = hips - BEHIND_HIPS * middle.length
+    while middle.back(chain[0]) > hips + NEAR_HIPS * middle.length:
+        ahead = {node for top in chain[1:] for node in middle.skeleton.below(top)}
+        ahead = ahead - set(middle.skeleton.below(chain[0])) | set(chain)
+        nearer = middle.back(chain[0]) - 1e-3 * middle.length
+        found = [node for node in sorted(trunk - ahead) if behind < middle.back(node) < nearer]
+        if not found:
+            # A pelvis that reaches far behind its hips.
+            found = [n for n in _carriers(middle, trunk - ahead) if middle.back(n) < nearer]
+        if not found:
             break
-        chain = [max(behind, key=lambda node: (float(place[node, 2]), -node)), *chain]
+        chain = [max(found, key=middle.back), *chain]
     return chain
 
 
-def find_tail(
-    skeleton: Skeleton, limbs: list[Limb], hip: FloatArray, spine: list[int]
-) -> list[int]:
+def _carriers(middle: Middle, trunk: set[int]) -> list[int]:
+    """Return the joints of the trunk from which the hindmost legs hang."""
+    rear = float(middle.hip[:, 2].min()) + NEAR_HIPS * middle.length
+    found = []
+    for limb, place in zip(middle.limbs, middle.hip, strict=True):
+        above = [node for node in middle.skeleton.above(limb.joints[0]) if node in trunk]
+        if place[2] <= rear and above:
+            found.append(above[0])
+    return found
+
+
+def find_tail(middle: Middle, spine: list[int]) -> list[int]:
     """Return the nodes of the tail, from the trunk to the tip, or none.
 
-    It is the longest chain of joints on the middle plane that begins at the hind hips or behind
-    them and leads away from the head.
+    It is the longest chain of joints on the middle plane that is named so, or else that begins at
+    the hind hips or behind them and leads backward.
     """
-    length = float(np.mean([limb.length for limb in limbs]))
-    usable = set(middle_joints(skeleton, limbs, hip)) - set(spine)
-    farthest = float(hip[:, 2].min()) + TAIL_BEHIND * length
-    best: tuple[float, list[int]] = (0.0, [])
+    skeleton = middle.skeleton
+    usable = set(middle.joints) - {
+        above for node in spine for above in (node, *skeleton.above(node))
+    }
+    hips = float(middle.hip[:, 2].min())
+    found: list[tuple[bool, float, list[int]]] = []
     for tip in sorted(usable):
-        chain = [tip]
-        while int(skeleton.parent[chain[-1]]) in usable:
-            chain.append(int(skeleton.parent[chain[-1]]))
-        chain.reverse()
-        points = skeleton.position[chain]
-        if points[0, 2] > farthest or points[-1, 2] >= points[0, 2]:
-            if len(chain) > 1 or points[0, 2] > farthest:
-                continue
-        best = max(best, (_reach(skeleton, chain), chain), key=lambda found: found[0])
-    return best[1] if best[0] >= LEAST_TAIL * length else []
+        chain = middle.chain_to(tip, usable)
+        named = has_word(skeleton.name[chain[-1]], *TAIL_NAMES)
+        points = np.array([*skeleton.position[chain], _end(skeleton, chain[-1])])
+        near = NEAR_HIPS * middle.length
+        leads_back = points[0, 2] < hips + near and points[-1, 2] < min(points[0, 2], hips) - near
+        reach = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+        if (named or leads_back) and reach >= LEAST_TAIL * middle.length:
+            found.append((named, reach, chain))
+    return max(found, key=lambda each: each[:2], default=(False, 0.0, []))[2]
 
 
-def _reach(skeleton: Skeleton, chain: list[int]) -> float:
-    """Return the length of a chain with the skin at its end."""
-    points = skeleton.position[chain]
-    skin = skeleton.vertex[skeleton.carrier == chain[-1]]
-    beyond = float(np.linalg.norm(skin - points[-1], axis=1).max()) if len(skin) else 0.0
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum()) + beyond
+def _end(skeleton: Skeleton, node: int) -> FloatArray:
+    """Return the skin of a node that is farthest from it [3]."""
+    skin = skeleton.vertex[skeleton.carrier == node]
+    place = skeleton.position[node]
+    return np.asarray(skin[np.linalg.norm(skin - place, axis=1).argmax()] if len(skin) else place)

@@ -1,13 +1,14 @@
 """How far spines, necks and tails bend where nobody says it.
 
 Limits bound what a gait or a turn asks for; they are no amplitudes. Sagittal: 60 degrees from most
-flexed to most extended bound the fastest gallopers (cheetah 50-70, greyhound 40-60, dog 20-35, horse
-10-25, BIOMECHANICS 4). Sideways: a lizard's pelvis yaws by 18 degrees either way at each stride, and
-it bends much more where it turns on the spot, as a wolf does.
+flexed to most extended are enough for the fastest gallopers (cheetah 50-70, greyhound 40-60, dog
+20-35, horse 10-25, BIOMECHANICS 4). Sideways: a lizard's pelvis yaws by 18 degrees either way at
+each stride, and it bends much more where it turns on the spot, as a wolf does.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -55,7 +56,7 @@ def default_limits(
     trunk = TRUNK_UPRIGHT if upright else TRUNK_SPRAWLING
     whole = WHOLE_UPRIGHT if upright else WHOLE_SPRAWLING
     neck = NECK_UPRIGHT if upright else NECK_SPRAWLING
-    for first, last in zip(of_girdle[:-1], of_girdle[1:], strict=True):
+    for first, last in pairwise(of_girdle):
         joints = np.arange(first + 1, last + 1)
         gap = 0.5 * (bone_length[first:last].sum() + bone_length[first + 1 : last + 1].sum())
         part = min(1.0, gap / (whole * leg_length))

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
+from polypod.errors import choices
+from polypod.morphology.chains import Chains
 from polypod.morphology.flexibility import default_limits, tail_limits
-from polypod.morphology.girdles import find_girdles
+from polypod.morphology.girdles import Girdles
 from polypod.morphology.skeleton import Skeleton
 from polypod.morphology.spine import SpineTable, rigid_trunk
 from polypod.morphology.types import FloatArray, IntArray, LegTable
@@ -30,40 +33,39 @@ class Trunk:
     rows: list[int]  # [J] node of each joint
     parent: IntArray  # [J] row of the joint it rides on, -1: the body
     legs: LegTable
+    girdles: Girdles
 
     def place(self, node: int) -> FloatArray:
-        """Return where a node is at rest [3], body frame, on the middle plane."""
-        place = self.skeleton.position[node] - self.centre
-        return np.array([0.0, place[1], place[2]])
+        """Return where a node is at rest [3], body frame.
+
+        Off the middle plane where the file has it so, by a little: else the joints of a record
+        would not stay as far apart as they are.
+        """
+        return np.asarray(self.skeleton.position[node] - self.centre)
 
     def skin(self, node: int) -> FloatArray:
         """Return the skin [V, 3] that a node carries, body frame."""
         return np.asarray(self.skeleton.vertex[self.skeleton.share([node]) >= 0.5] - self.centre)
 
 
-def build_spine(trunk: Trunk, spine: list[int], tail: list[int], named: bool) -> SpineTable:
-    """Return the table; a rigid trunk where fewer than two segments are left.
+def build_spine(trunk: Trunk, chains: Chains | None) -> tuple[SpineTable, list[str]]:
+    """Return the table, and what was guessed.
 
-    A trunk with a single girdle is rigid too, unless a user names its spine: P2's model moves
-    girdles against each other. What lies behind the hindmost girdle becomes part of the tail, and a joint from which the spine
-    would not go on is left out: it rides on its neighbour.
-
-    Args:
-        trunk: the rig.
-        spine: nodes from back to head.
-        tail: nodes from the trunk to the tip.
-        named: a user says what the spine is.
+    The trunk is rigid where there are no chains, or fewer than two segments are left. What lies
+    behind the hindmost girdle becomes part of the tail, and a joint from which the spine would not
+    go on is left out: it rides on its neighbour.
     """
-    legs = trunk.legs
-    girdles = find_girdles(legs)
-    girdle_rest = np.array(
-        [legs.point_rest[girdles.of_leg == g, 0].mean(axis=0) for g in range(len(girdles.place))]
-    )
-    leg_length = float(legs.length.mean())
-    nodes, behind = list(spine) if named or len(girdles.place) > 1 else [], list(tail)
+    legs, girdles, leg_length = trunk.legs, trunk.girdles, float(trunk.legs.length.mean())
+    places = range(len(girdles.place))
+    hips = [legs.point_rest[girdles.of_leg == g, 0].mean(axis=0) for g in places]
+    girdle_rest = np.array(hips)
+    nodes, behind = (list(chains.spine), list(chains.tail)) if chains else ([], [])
     while len(nodes) > 1:
         pivot = _pivots(trunk, nodes, girdle_rest[0], leg_length)
-        of_girdle = _seat_girdles(trunk, nodes, pivot, girdles.of_leg, girdle_rest, leg_length)
+        by_tree = [_by_tree(trunk, nodes, pivot, g, BESIDE * leg_length) for g in places]
+        nearest = [nearest_bone(pivot[:-1], place) for place in girdle_rest]
+        said = [a if a >= 0 else b for a, b in zip(by_tree, nearest, strict=True)]
+        of_girdle = np.maximum.accumulate(np.array(said, np.int64))
         if of_girdle[0] > 0:
             nodes, behind = nodes[of_girdle[0] :], nodes[: of_girdle[0]][::-1] + behind
             continue
@@ -72,7 +74,7 @@ def build_spine(trunk: Trunk, spine: list[int], tail: list[int], named: bool) ->
             break
         nodes.pop(fault - 1 if fault == len(nodes) - 1 else fault)
     if len(nodes) < 2:
-        return rigid_trunk(len(legs.length), len(trunk.rows), len(girdles.place))
+        return rigid_trunk(len(legs.length), len(trunk.rows), len(girdles.place)), []
     row_of = {node: row for row, node in enumerate(trunk.rows)}
     length = np.linalg.norm(np.diff(pivot, axis=0), axis=1)
     tail_pivot, behind = _tail_pivots(trunk, nodes[0], behind, SHORTEST * leg_length)
@@ -80,7 +82,7 @@ def build_spine(trunk: Trunk, spine: list[int], tail: list[int], named: bool) ->
     of_leg = of_girdle[girdles.of_leg]
     neck = int(of_girdle[-1]) + 1
     upright = bool(np.mean(legs.upright) > 0.5)
-    return SpineTable(
+    table = SpineTable(
         joint=np.array([row_of[node] for node in nodes], np.int64),
         pivot_rest=pivot,
         bone_length=length,
@@ -97,11 +99,12 @@ def build_spine(trunk: Trunk, spine: list[int], tail: list[int], named: bool) ->
         tail_length=tail_length,
         tail_limit=tail_limits(tail_length),
     )
+    return table, _guesses(trunk, nodes, of_girdle, by_tree)
 
 
 def _pivots(trunk: Trunk, nodes: list[int], hips: FloatArray, leg_length: float) -> FloatArray:
     """Return [S + 1, 3] where each segment begins, and where the last ends."""
-    between = [_pivot(trunk, a, b) for a, b in zip(nodes[:-1], nodes[1:], strict=True)]
+    between = [_pivot(trunk, a, b) for a, b in pairwise(nodes)]
     begin, along = trunk.place(nodes[0]), trunk.place(nodes[-1]) - trunk.place(nodes[0])
     bone = between[0] - begin
     size = float(np.linalg.norm(bone) * np.linalg.norm(along))
@@ -109,7 +112,7 @@ def _pivots(trunk: Trunk, nodes: list[int], hips: FloatArray, leg_length: float)
     if not bone @ along > LEANS * size or ahead:
         # Its joint lies at its fore end, or above the hips: these say where the spine begins.
         back = min(float(hips[2]), float(between[0][2]) - BEGIN_BEHIND * leg_length)
-        begin = np.array([0.0, between[0][1], back])
+        begin = np.array([*between[0][:2], back])
     return np.array([begin, *between, _front(trunk, nodes[-1], between[-1])])
 
 
@@ -135,48 +138,57 @@ def _front(trunk: Trunk, node: int, pivot: FloatArray) -> FloatArray:
     skin = trunk.skin(node)
     ahead = skin[skin[:, 2] > pivot[2]]
     if not len(ahead):
-        return pivot + [0.0, 0.0, float(np.ptp(trunk.skeleton.vertex[:, 2])) * SHORTEST]
+        length = float(np.ptp(trunk.skeleton.vertex[:, 2]))
+        return np.array([*pivot[:2], pivot[2] + 2.0 * SHORTEST * length])
     front = float(np.percentile(ahead[:, 2], FRONT))
     nose = ahead[ahead[:, 2] > pivot[2] + 0.7 * (front - pivot[2])]
-    return np.array([0.0, float(nose[:, 1].mean()), front])
+    return np.array([pivot[0], float(nose[:, 1].mean()), front])
 
 
-def _seat_girdles(
-    trunk: Trunk,
-    nodes: list[int],
-    pivot: FloatArray,
-    girdle_of_leg: IntArray,
-    girdle_rest: FloatArray,
-    leg_length: float,
-) -> IntArray:
-    """Return [G] the segment of each girdle: by the file's tree where that is near, else nearest.
+def _by_tree(trunk: Trunk, nodes: list[int], pivot: FloatArray, girdle: int, far: float) -> int:
+    """Return the segment on which the file's tree hangs most legs of a girdle, -1: on none.
 
-    A tree that hangs all legs on one root says nothing about girdles.
+    A tree that hangs all legs on one root says nothing about girdles: their segment is near.
     """
     segment_of = {node: s for s, node in enumerate(nodes)}
+    above = []
+    for k in np.flatnonzero(trunk.girdles.of_leg == girdle):
+        joints = trunk.skeleton.above(trunk.rows[int(trunk.legs.joint[k, 0])])
+        above.extend([segment_of[node] for node in joints if node in segment_of][:1])
+    said = max(sorted(set(above)), key=above.count, default=-1)
+    if said >= 0:
+        low, high = sorted(pivot[said : said + 2, 2])
+        if not low - far <= trunk.girdles.place[girdle] <= high + far:
+            return -1
+    return said
+
+
+def _guesses(trunk: Trunk, nodes: list[int], of_girdle: IntArray, by_tree: list[int]) -> list[str]:
+    """Return what was guessed about what rides where."""
+    label = trunk.skeleton.label
     found = []
-    for g, place in enumerate(girdle_rest):
-        above = []
-        for hip in trunk.legs.joint[girdle_of_leg == g, 0]:
-            joints = trunk.skeleton.above(trunk.rows[int(hip)])
-            above.extend([segment_of[node] for node in joints if node in segment_of][:1])
-        said = max(set(above), key=above.count, default=-1)
-        if said >= 0:
-            low, high = sorted(pivot[said : said + 2, 2])
-            if not low - BESIDE * leg_length <= place[2] <= high + BESIDE * leg_length:
-                said = -1
-        found.append(said if said >= 0 else nearest_bone(pivot[:-1], place))
-    return np.maximum.accumulate(np.array(found, np.int64))
+    for g, segment in enumerate(of_girdle):
+        if by_tree[g] != segment:
+            hips = trunk.legs.joint[trunk.girdles.of_leg == g, 0]
+            legs = choices((label(trunk.rows[int(row)]) for row in hips), 6)
+            near = label(nodes[segment])
+            found.append(
+                f'{legs}: hang on no joint of the spine, so they go with "{near}", near them'
+            )
+        if g > 0 and segment == of_girdle[g - 1]:
+            found.append(
+                f'its trunk has no joint between its girdles but "{label(nodes[segment])}", so it '
+                "does not bend there"
+            )
+    return found
 
 
 def nearest_bone(pivot: FloatArray, place: FloatArray) -> int:
-    """Return which bone of a chain with pivots [S + 1, 3] is nearest to a place [3], in the middle.
-
-    The place is seen from the side.
-    """
-    start, bone = pivot[:-1], np.diff(pivot, axis=0)
-    seen = np.array([0.0, place[1], place[2]])
-    along = np.einsum("si,si->s", seen - start, bone) / np.einsum("si,si->s", bone, bone)
+    """Return which bone of a chain with pivots [S + 1, 3] is nearest to a place [3] from aside."""
+    side = pivot[:, 1:]
+    start, bone, seen = side[:-1], np.diff(side, axis=0), place[1:]
+    square = np.maximum(np.einsum("si,si->s", bone, bone), 1e-300)
+    along = np.einsum("si,si->s", seen - start, bone) / square
     away = np.linalg.norm(start + np.clip(along, 0.0, 1.0)[:, None] * bone - seen, axis=1)
     return int(np.argmin(away))
 
@@ -215,9 +227,9 @@ def _tail_pivots(
         return np.zeros((1, 3)), []
     skin = trunk.skin(kept[-1])
     away = np.linalg.norm(skin - pivot[-1], axis=1)
-    tip = pivot[-1] + [0.0, 0.0, -least]
+    tip = pivot[-1] - [0.0, 0.0, 2.0 * least]
     if len(skin) and float(away.max()) > least:
-        tip = skin[int(away.argmax())] * [0.0, 1.0, 1.0]
+        tip = np.array([pivot[-1][0], *skin[int(away.argmax()), 1:]])
     return np.array([*pivot, tip]), kept
 
 
@@ -263,8 +275,7 @@ def _nearest_segment(
 ) -> int:
     """Return the segment of spine or tail nearest to the middle of some skin, or to a place."""
     middle = skin.mean(axis=0) if len(skin) else place
-    bones = [*zip(pivot[:-1], pivot[1:], strict=True),
-             *zip(tail_pivot[:-1], tail_pivot[1:], strict=True)]  # fmt: skip
+    bones = [*pairwise(pivot), *pairwise(tail_pivot)]
     return int(np.argmin([_away(np.array(bone), middle) for bone in bones]))
 
 
