@@ -154,6 +154,7 @@ def make_state(
         "spine_wish": (c, segments + tail, 3),
         "spine_base_wish": (c, 3),
         "girdle_bend": (c, girdles, 4, 3),
+        "girdle_was": (c, girdles, 4, 3),
         "spine_share": (c, 2, 3),
         "gaze": (c, 3),
         "tail_sway": (c, tail, 2, 3),

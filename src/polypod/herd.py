@@ -74,6 +74,7 @@ class Scratch(NamedTuple):
     route: RouteScratch
     company: Company  # all creatures of the world, as all threads read them
     node: FloatArray  # [G, 4] where the spine's girdles are to be, see polypod.spine.curve
+    more: FloatArray  # [G, 4] the same with what the gait adds
     wish: FloatArray  # [G] rad
     neighbour: IntArray  # [HEEDED] rows of the company
     neighbour_gap: FloatArray  # [HEEDED] m
@@ -104,7 +105,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         ik=ik,
         girdles=girdles,
         spine=morphology.segments,
-        bend=make_bend_table(morphology.segments, girdles, leg_length),
+        bend=make_bend_table(morphology.segments, girdles, legs),
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
@@ -303,6 +304,7 @@ class Herd:
                 route=make_route_scratch(),
                 company=self._company,
                 node=np.zeros((len(self.tables.girdles.place), 4)),
+                more=np.zeros((len(self.tables.girdles.place), 4)),
                 wish=np.zeros(len(self.tables.girdles.place)),
                 neighbour=np.zeros(HEEDED, np.int64),
                 neighbour_gap=np.zeros(HEEDED),

@@ -154,6 +154,7 @@ class HerdState(NamedTuple):
     girdle_bend: FloatArray  # [C, G, 4, 3] a girdle against the body's axis, without what its gait
     # adds: to the left and up, m, yaw (as a heading) and pitch (front up), rad; smoothed value,
     # rate, low pass
+    girdle_was: FloatArray  # [C, G, 4, 3] the same as the step began
     spine_share: FloatArray  # [C, 2, 3] how much the spine takes on of the track, which is nothing
     # of who goes sideways, and of what the gait bends it by; smoothed
     gaze: FloatArray  # [C, 3] rad: the head's yaw against the body's axis, smoothed

@@ -26,6 +26,7 @@ from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 from polypod.morphology.roll import FLAT
 from polypod.spine.chain import keep_bend, place_segments
+from polypod.spine.yielding import yields
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
@@ -213,7 +214,10 @@ def settle_body(
     turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
     wished = sideways(Vec3(pose.x, height, pose.z), pose.heading, sway)
     wish_feet(c, dt, state, command, tables, env, scratch)
+    asked_for = wished
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
+    if yields(c, wished, turn, state, tables, scratch):
+        wished = body_within_reach(c, state, tables, scratch, asked_for, turn)
     heading_before = state.heading[c]
     turning = wrapped(pose.heading - heading_before)
     near = list_neighbours(c, tables.leg_length, state, scratch) if state.crowded[c] else 0

@@ -32,7 +32,9 @@ UNHURRIED = 0.93
 HURRY = 1.2
 MOST_HURRY = 0.5
 # Who goes faster than this, leg lengths a pendulum time, walks on in a turn if its spine bends.
-WALKING = 0.15
+WALKING = 0.03
+# And turns at this share of its turn rate at least, however slowly it gets on.
+SLOWEST_TURN = 0.05
 # A usual gait cycle, leg pendulum times.
 CYCLE = 2.5
 
@@ -125,8 +127,8 @@ def steer(
         # Who bends walks on along an arc that its spine can lie on, and turns on the spot only
         # where it stands.
         share = max(share, min(1.0, limit / (curl * max(speed_asked, 1e-9))))
-        walking = pose.speed * pendulum / (WALKING * tables.leg_length)
-        limit = min(limit, max(curl * pose.speed, limit * (1.0 - walking)))
+        walking = speed_asked * pendulum / (WALKING * tables.leg_length)
+        limit = min(limit, max(curl * pose.speed, limit * max(1.0 - walking, SLOWEST_TURN)))
     speed_asked *= share
     rate_asked = min(limit, max(-limit, error / response))
     turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (

@@ -16,11 +16,14 @@ from typing import Any
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, steer, wrapped
 
-# The track behind is kept at so many places, and the way ahead looked at in so many moments of so
-# many leg pendulum times.
+# The track behind is kept at so many places.
 TRACK = 48
-MOMENTS = 6
+# The way ahead is looked at in so many moments, for so many leg pendulum times and as far as the
+# foremost girdle will have come by then that is so many times as far ahead, but not farther.
+MOMENTS = 8
 FORESIGHT = 2.4
+FARTHER = 1.5
+FARTHEST = 16.0
 # A body that stands straightens within so many pendulum times; one that walks faster than this,
 # leg lengths a pendulum time, by its way alone.
 RELAX = 3.0
@@ -58,7 +61,11 @@ def note_track(c: int, dt: float, pose: PlanPose, state: Any, command: Any, tabl
 @kernel
 def note_way(c: int, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any) -> None:
     """Write where the way leads: for some moments ahead the arc, m, and the yaw against now."""
-    dt = FORESIGHT * tables.pendulum_time / MOMENTS
+    pendulum = tables.pendulum_time
+    front = FARTHER * tables.girdles.place[tables.girdles.place.shape[0] - 1]
+    slowest = front / (FARTHEST * pendulum)
+    horizon = max(FORESIGHT * pendulum, front / max(pose.speed, slowest))
+    dt = horizon / MOMENTS
     along = max(0.0, math.cos(command.travel[c]))
     way = state.way_ahead[c]
     arc = 0.0

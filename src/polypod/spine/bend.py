@@ -13,7 +13,7 @@ from polypod.math.quat import Quat
 from polypod.math.vec3 import Vec3, store_vec3
 from polypod.spine.advancing import MOMENTS, left_along, note_track, note_way, yaw_along
 from polypod.spine.chain import place_segments
-from polypod.spine.curve import draw_curve
+from polypod.spine.curve import draw_curve, room_for
 from polypod.spine.elevation import bounce_girdles, carry_girdles, induce
 from polypod.spine.orientation import pass_back, turn_neck, wished_gaze
 from polypod.spine.tail import swing_tail
@@ -21,8 +21,14 @@ from polypod.spine.tail import swing_tail
 # Girdles follow what they are to do within so many leg pendulum times, and the head.
 SMOOTH = 0.6
 SMOOTH_GAZE = 0.5
+# One that is farther ahead than this, leg lengths, within the time in which it walks the rest, and
+# at most so many leg pendulum times.
+AT_ONCE = 0.6
+SLOWEST_SWING = 10.0
 # What `follow` lags behind what moves steadily by, shares of its time.
 LAG = 0.75
+# What is left of it below this share, of a spine that shall not bend, is nothing.
+STRAIGHT = 1e-9
 # How much a spine bends follows settings and course within so many leg pendulum times.
 ADOPT = 2.0
 
@@ -36,7 +42,8 @@ def bend_spine(
 
     The angles of its joints are left in `spine_wish`, and its segments are where these put them.
     """
-    if tables.spine.joint.shape[0] == 0:
+    rigid = settings.spine <= 0.0 and state.spine_share[c, 1, 0] < STRAIGHT
+    if tables.spine.joint.shape[0] == 0 or rigid:
         return
     pendulum = tables.pendulum_time
     along = max(0.0, math.cos(command.travel[c]))
@@ -50,30 +57,50 @@ def bend_spine(
         seconds = min(seconds, 1.0 / state.cycle_rate[c])
     carry_girdles(c, dt, settings.height_smoothing * seconds, plane, state, tables)
     node = scratch.node
+    more = scratch.more
     for g in range(node.shape[0]):
         for axis in range(4):
             node[g, axis] = state.girdle_bend[c, g, axis, 0]
-    bounce_girdles(c, node, state, tables)
-    induce(c, node, state, command, tables, settings)
+            more[g, axis] = node[g, axis]
+    bounce_girdles(c, more, state, tables)
+    induce(c, more, state, command, tables, settings)
+    # The way comes first: the gait bends the spine by what the limits leave.
+    share = room_for(node, more, tables)
+    for g in range(node.shape[0]):
+        for axis in range(4):
+            node[g, axis] += share * (more[g, axis] - node[g, axis])
     chest = draw_curve(c, node, state, tables)
     move_ends(c, dt, chest, node, state, tables, settings)
     place_segments(c, 1.0, state, tables)
 
 
 @kernel
+def swing_seconds(place: float, speed: float, tables: Any) -> float:
+    """Return the time in which a girdle follows, s; `place` is how far it is ahead, m.
+
+    One far ahead swings aside no faster than it walks: its feet are to follow it.
+    """
+    pendulum = tables.pendulum_time
+    far = max(place - AT_ONCE * tables.leg_length, 0.0)
+    swing = min(far / max(speed, 1e-9), SLOWEST_SWING * pendulum)
+    return float(max(SMOOTH * pendulum, swing))
+
+
+@kernel
 def guide_girdles(c: int, dt: float, pose: PlanPose, state: Any, tables: Any, scratch: Any) -> None:
     """Let each girdle follow the track: steps 1 and 2 (P2 5.1, 5.2)."""
     place = tables.girdles.place
-    seconds = SMOOTH * tables.pendulum_time
     lead = state.spine_share[c, 0, 0]
-    # Where the track is by the time that the filter has caught up.
-    ahead = LAG * seconds * pose.speed * min(1.0, lead)
-    here = yaw_along(c, ahead, state, tables)
     wish = scratch.wish
     for g in range(place.shape[0]):
+        # Where the track is by the time that the filter has caught up.
+        ahead = LAG * swing_seconds(place[g], pose.speed, tables) * pose.speed * min(1.0, lead)
+        here = yaw_along(c, ahead, state, tables)
         wish[g] = lead * (yaw_along(c, ahead + place[g], state, tables) - here)
     pass_back(c, wish, state, tables)
     for g in range(place.shape[0]):
+        seconds = swing_seconds(place[g], pose.speed, tables)
+        ahead = LAG * seconds * pose.speed * min(1.0, lead)
         left = left_along(c, place[g], lead, ahead, state, tables)
         # No farther than a bend within the limits leads.
         most = abs(0.5 * tables.bend.most_yaw[g] * place[g])

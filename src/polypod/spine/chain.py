@@ -105,3 +105,11 @@ def keep_bend(c: int, share: float, state: Any, tables: Any) -> None:
         store_vec3(state.spine_angle[c, row], mixed(c, row, share, state))
     base = load_vec3(state.spine_base[c]) * (1.0 - share)
     store_vec3(state.spine_base[c], base + load_vec3(state.spine_base_wish[c]) * share)
+    # What steered it goes on from there too, or it would ask for ever more of feet that hold it.
+    for g in range(state.girdle_bend.shape[1]):
+        for axis in range(4):
+            for i in range(3):
+                was = state.girdle_was[c, g, axis, i]
+                gone = share * (state.girdle_bend[c, g, axis, i] - was)
+                state.girdle_bend[c, g, axis, i] = was + gone
+                state.girdle_was[c, g, axis, i] = was + gone

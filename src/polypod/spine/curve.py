@@ -61,6 +61,44 @@ def segment_way(s: int, node: Any, tables: Any) -> Vec3:
 
 
 @kernel
+def segment_turn(s: int, node: Any, tables: Any) -> Quat:
+    """Return the rotation that a segment of the trunk is to have against the body frame."""
+    way = segment_way(s, node, tables)
+    yaw = math.atan2(way.x, way.z)
+    return joint_turn(yaw, math.atan2(way.y, math.hypot(way.x, way.z)), 0.0)
+
+
+@kernel
+def room_for(node: Any, more: Any, tables: Any) -> float:
+    """Return the share of what is to be added to the nodes that the joints' limits leave room for.
+
+    `node` and `more` are [G, 4]; angles are taken to add up as far as each bends.
+    """
+    limit = tables.spine.limit
+    share = 1.0
+    before = segment_turn(0, node, tables)
+    before_all = segment_turn(0, more, tables)
+    for s in range(1, tables.spine.neck):
+        turn = segment_turn(s, node, tables)
+        turn_all = segment_turn(s, more, tables)
+        own = joint_angles(conjugate(before) * turn)
+        full = joint_angles(conjugate(before_all) * turn_all)
+        share = min(share, room_of(own.x, full.x, limit[s, 0]))
+        share = min(share, room_of(own.y, full.y, limit[s, 1]))
+        before = turn
+        before_all = turn_all
+    return share
+
+
+@kernel
+def room_of(own: float, whole: float, limit: float) -> float:
+    """Return the share of the way from an angle to another at which it comes to its limit, rad."""
+    if abs(whole) <= limit:
+        return 1.0
+    return min(max((limit - abs(own)) / max(abs(whole - own), 1e-12), 0.0), 1.0)
+
+
+@kernel
 def draw_curve(c: int, node: Any, state: Any, tables: Any) -> Quat:
     """Write the angles of the trunk's joints, and where it begins; return the chest's rotation.
 
@@ -72,11 +110,7 @@ def draw_curve(c: int, node: Any, state: Any, tables: Any) -> Quat:
     pivot = load_vec3(spine.pivot_rest[0])
     gap = Vec3(0.0, 0.0, 0.0)
     for s in range(max(spine.neck, 1)):
-        way = segment_way(s, node, tables)
-        wanted = joint_turn(
-            math.atan2(way.x, way.z), math.atan2(way.y, math.hypot(way.x, way.z)), 0.0
-        )
-        angles = joint_angles(conjugate(turn) * wanted)
+        angles = joint_angles(conjugate(turn) * segment_turn(s, node, tables))
         if s > 0:
             angles = within(angles, spine.limit[s])
         store_vec3(state.spine_wish[c, s], angles)

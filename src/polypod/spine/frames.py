@@ -87,5 +87,8 @@ def leg_frame_at(
     pitch = from_axis_angle(Vec3(1.0, 0.0, 0.0), -state.girdle_bend[c, g, 3, 0])
     carried = from_heading(yaw) * pitch
     rest = load_vec3(tables.spine.girdle_rest[g])
-    shift = rest + Vec3(left, state.girdle_bend[c, g, 1, 0], 0.0) - rotate(carried, rest)
+    # Along an arc it is a little nearer than straight ahead.
+    nearer = rest.z * yaw * yaw / 6.0
+    moved = Vec3(left, state.girdle_bend[c, g, 1, 0], -nearer)
+    shift = rest + moved - rotate(carried, rest)
     return position + rotate(turn, shift), turn * carried

@@ -8,7 +8,7 @@ import numpy as np
 
 from polypod.morphology.girdles import Girdles
 from polypod.morphology.spine import SpineTable
-from polypod.morphology.types import FloatArray, IntArray
+from polypod.morphology.types import FloatArray, IntArray, LegTable
 from polypod.spine.advancing import TRACK
 
 # Of what joints allow the track takes so much: the rest is for what a gait bends a spine by.
@@ -18,6 +18,10 @@ BEHIND = 1.05
 # Girdles nearer to each other than this, leg lengths, yaw less by their feet, by the square: a wave
 # of many of them would lead each aside.
 APART = 1.2
+# The inner feet need so many times as much room in a turn as they stand beside the middle.
+ROOM_INSIDE = 2.6
+# And so many more where each has the next one close by.
+CROWDED_INSIDE = 6.0
 
 
 class BendTable(NamedTuple):
@@ -36,9 +40,11 @@ class BendTable(NamedTuple):
     track_step: float  # m, from one place of the track behind to the next
 
 
-def make_bend_table(spine: SpineTable, girdles: Girdles, leg_length: float) -> BendTable:
-    """Return what is made from the spine's segments and its girdles; m."""
+def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> BendTable:
+    """Return what is made from the spine's segments, its girdles and their legs."""
+    leg_length = float(np.mean(legs.length))
     count = len(girdles.place)
+    apart = min(1.0, float(np.ptp(girdles.place)) / max(count - 1, 1) / (APART * leg_length))
     segments = len(spine.joint)
     first = np.full(segments, -1, np.int64)
     last = np.full(segments, -1, np.int64)
@@ -62,9 +68,8 @@ def make_bend_table(spine: SpineTable, girdles: Girdles, leg_length: float) -> B
     return BendTable(
         most_yaw=most_yaw(spine, girdles),
         yaw_gap=yaw_gap(spine, girdles),
-        apart=min(1.0, float(np.ptp(girdles.place)) / max(count - 1, 1) / (APART * leg_length))
-        ** 2,
-        tightest=tightest(spine, girdles),
+        apart=apart * apart,
+        tightest=tightest(spine, girdles, float(np.abs(legs.sole_stance[:, 0]).mean()), apart),
         neck_range=spine.limit[spine.neck :].sum(axis=0).reshape(3) if segments else np.zeros(3),
         first_girdle=first,
         last_girdle=last,
@@ -85,10 +90,17 @@ def yaw_gap(spine: SpineTable, girdles: Girdles) -> FloatArray:
     return gap
 
 
-def tightest(spine: SpineTable, girdles: Girdles) -> float:
-    """Return the curvature, 1/m, of the tightest arc on which a trunk can lie; 0: it is rigid."""
+def tightest(spine: SpineTable, girdles: Girdles, beside: float, apart: float) -> float:
+    """Return the curvature, 1/m, of the tightest arc that a creature walks on; 0: it is rigid.
+
+    On which its trunk can lie, and on whose inner side its feet have room: they stand `beside` its
+    middle, m, and its girdles are `apart`, 1 where far.
+    """
     span = float(girdles.place[-1] - girdles.place[0])
-    return float(yaw_gap(spine, girdles).sum()) / span if span > 0.0 else 0.0
+    if span <= 0.0:
+        return 0.0
+    room = ROOM_INSIDE + CROWDED_INSIDE * (1.0 - apart)
+    return min(float(yaw_gap(spine, girdles).sum()) / span, 1.0 / (room * beside))
 
 
 def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
@@ -96,4 +108,6 @@ def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
 
     All that the spine bends from the hindmost to the foremost, shared as they lie along it.
     """
-    return np.asarray(tightest(spine, girdles) * np.abs(girdles.place))
+    span = float(girdles.place[-1] - girdles.place[0])
+    whole = float(yaw_gap(spine, girdles).sum())
+    return np.asarray(whole * np.abs(girdles.place) / span) if span > 0.0 else 0.0 * girdles.place
