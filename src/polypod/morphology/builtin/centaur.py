@@ -15,13 +15,13 @@ SLATE, MOSS, DUSK, BONE, RUST, INK, EMBER = (
 # Joints of the middle, m. From the middle girdle on the spine rises toward the foremost.
 SPINE = {
     "Pelvis": (0.0, 0.600, -0.574),
-    "Spine1": (0.0, 0.612, -0.443),
-    "Spine2": (0.0, 0.615, -0.312),
-    "Spine3": (0.0, 0.612, -0.182),
-    "Withers": (0.0, 0.610, -0.054),
-    "Spine4": (0.0, 0.630, 0.076),
-    "Spine5": (0.0, 0.670, 0.200),
-    "Spine6": (0.0, 0.728, 0.311),
+    "Spine1": (0.0, 0.612, -0.450),
+    "Spine2": (0.0, 0.615, -0.327),
+    "Spine3": (0.0, 0.612, -0.205),
+    "Withers": (0.0, 0.610, -0.084),
+    "Spine4": (0.0, 0.628, 0.056),
+    "Spine5": (0.0, 0.666, 0.188),
+    "Spine6": (0.0, 0.725, 0.306),
     "Chest": (0.0, 0.790, 0.415),
     "Neck1": (0.0, 0.870, 0.522),
     "Neck2": (0.0, 0.939, 0.584),
@@ -46,10 +46,10 @@ HIND_LEG = (
 )
 # Its feet stand outside the track of the others, which come near them at each step.
 MIDDLE_LEG = (
-    (0.084, 0.544, -0.051),
-    (0.134, 0.404, -0.178),
-    (0.160, 0.165, -0.138),
-    (0.174, 0.043, -0.084),
+    (0.084, 0.544, -0.081),
+    (0.116, 0.404, -0.210),
+    (0.118, 0.165, -0.170),
+    (0.122, 0.043, -0.116),
 )
 FORE_LEG = (
     (0.087, 0.716, 0.463),
@@ -133,7 +133,7 @@ FORE_PROFILE = (
 LEG_PAINT = Paint(((0.0, SLATE), (1.0, SLATE), (1.8, RUST), (3.0, BONE)))
 ARM_PAINT = Paint(((0.0, SLATE), (1.0, SLATE), (2.4, RUST), (4.0, BONE)))
 HAUNCH = (0.050, 0.625, -0.595)  # where the thigh's mass begins
-MIDDLE_BLADE = (0.047, 0.629, -0.126)  # the upper ends of the shoulder blades
+MIDDLE_BLADE = (0.047, 0.629, -0.156)  # the upper ends of the shoulder blades
 FORE_BLADE = (0.048, 0.807, 0.377)
 SEAM = 0.055  # how far around the roots of limbs the skin flows over, m
 
