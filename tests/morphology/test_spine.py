@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 from pathlib import Path
 
 import numpy as np
@@ -155,6 +157,23 @@ def test_built_in_creatures(name: str, segments: int, tail: int, of_girdle: list
         assert trunk[1] == pytest.approx(30.0)
     if name == "lizard":
         assert trunk[0] == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize("name", ["wolf", "lizard", "centaur", "centipede"])
+def test_spines_are_found_in_files_without_names(name: str, tmp_path: Path) -> None:
+    """Also where a jaw hangs on the head: it is no part of the spine."""
+    path, known = tmp_path / "nameless.gltf", load_rig(name)
+    content = json.loads(json.dumps(known.source.document.json))
+    for node in content["nodes"]:
+        del node["name"]
+    data = base64.b64encode(known.source.document.binary).decode()
+    content["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{data}"
+    path.write_text(json.dumps(content))
+    found = load_rig(path, forward="+z")
+    for rows in ("joint", "tail_joint"):
+        nodes = found.joint_node[getattr(found.segments, rows)]
+        assert nodes.tolist() == known.joint_node[getattr(known.segments, rows)].tolist()
+    assert found.segments.of_girdle.tolist() == known.segments.of_girdle.tolist()
 
 
 @pytest.mark.parametrize("name", ["wolf", "lizard", "centaur", "centipede"])

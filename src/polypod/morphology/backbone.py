@@ -99,14 +99,23 @@ def _heads(middle: Middle, trunk: set[int]) -> list[int]:
     ]
     if named:
         return named
-    return [
-        node
+    ends = [
+        _without_jaw(skeleton, node, trunk)
         for node in sorted(trunk)
         if not set(skeleton.children[node]) & trunk
         and not has_word(skeleton.name[node], *NOT_HEAD)
         and _front(skeleton, node) > hip[:, 2].max() - 0.1 * middle.length
         and skeleton.position[node, 1] > hip[:, 1].mean() - 0.3 * middle.length
     ]
+    return list(dict.fromkeys(ends))
+
+
+def _without_jaw(skeleton: Skeleton, end: int, trunk: set[int]) -> int:
+    """Return the end of a chain, or the joint above it whose skin reaches as far forward."""
+    above = int(skeleton.parent[end])
+    while above in trunk and _front(skeleton, above) >= _front(skeleton, end):
+        end, above = above, int(skeleton.parent[above])
+    return end
 
 
 def _named_so(skeleton: Skeleton, node: int) -> bool:
