@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +16,11 @@ from numpy.typing import NDArray
 from polypod.errors import RigError
 from polypod.morphology.load import load_rig
 from polypod.morphology.segments import nearest_bone
+from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import Morphology
 from polypod.report.arrays import matrices_of
 from polypod.report.record import bones
+from polypod.report.skin import flesh_of
 
 FloatArray = NDArray[np.float64]
 
@@ -73,25 +77,36 @@ def assert_sound(morphology: Morphology) -> None:
     assert (table.of_joint[legs.joint[legs.joint >= 0]] == -1).all()
 
 
+Motion = tuple[FloatArray, FloatArray, FloatArray]  # a turn, where a pivot goes, the pivot at rest
+
+
+def motions(table: SpineTable, turns: FloatArray) -> list[Motion]:
+    """Return how each segment of spine and tail moves when it turns [S + T, 3, 3] on the last."""
+
+    def follow(pivots: FloatArray, turn: FloatArray, begin: FloatArray, own: FloatArray) -> None:
+        for s in range(len(pivots) - 1):
+            turn = turn @ own[s]
+            found.append((turn, begin, pivots[s]))
+            begin = begin + turn @ (pivots[s + 1] - pivots[s])
+
+    found: list[Motion] = []
+    follow(table.pivot_rest, np.eye(3), table.pivot_rest[0], turns)
+    first, place, rest = found[0]
+    root = place + first @ (table.tail_pivot_rest[0] - rest)
+    follow(table.tail_pivot_rest, first, root, turns[len(table.joint) :])
+    return found
+
+
 def bent(morphology: Morphology, seed: int) -> FloatArray:
     """Return the joints [J, 3], body frame, with every segment turned against the one behind it."""
     table, random = morphology.segments, np.random.default_rng(seed)
-
-    def follow(pivots: FloatArray, turn: FloatArray, begin: FloatArray):  # type: ignore[no-untyped-def]
-        for s in range(len(pivots) - 1):
-            quarter = random.normal(size=4) * [0.2, 0.2, 0.2, 0.0] + [0.0, 0.0, 0.0, 1.0]
-            turn = turn @ matrices_of(quarter[None] / np.linalg.norm(quarter))[0]
-            yield turn, begin, pivots[s]
-            begin = begin + turn @ (pivots[s + 1] - pivots[s])
-
-    motions = list(follow(table.pivot_rest, np.eye(3), table.pivot_rest[0]))
-    first, place, rest = motions[0]
-    root = place + first @ (table.tail_pivot_rest[0] - rest)
-    motions += list(follow(table.tail_pivot_rest, first, root))
-    moved = morphology.joint_rest.copy()
+    count = len(table.joint) + len(table.tail_joint)
+    quaternion = random.normal(size=(count, 4)) * [0.2, 0.2, 0.2, 0.0] + [0.0, 0.0, 0.0, 1.0]
+    quaternion /= np.linalg.norm(quaternion, axis=1, keepdims=True)
+    moved, found = morphology.joint_rest.copy(), motions(table, matrices_of(quaternion))
     for row, segment in enumerate(table.of_joint):
         if segment >= 0:
-            turn, place, rest = motions[segment]
+            turn, place, rest = found[segment]
             moved[row] = place + turn @ (morphology.joint_rest[row] - rest)
     return moved
 
@@ -142,6 +157,59 @@ def test_built_in_creatures(name: str, segments: int, tail: int, of_girdle: list
         assert trunk[1] == pytest.approx(30.0)
     if name == "lizard":
         assert trunk[0] == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize("name", ["wolf", "lizard", "centaur", "centipede"])
+def test_spines_are_found_in_files_without_names(name: str, tmp_path: Path) -> None:
+    """Also where a jaw hangs on the head: it is no part of the spine."""
+    path, known = tmp_path / "nameless.gltf", load_rig(name)
+    content = json.loads(json.dumps(known.source.document.json))
+    for node in content["nodes"]:
+        del node["name"]
+    data = base64.b64encode(known.source.document.binary).decode()
+    content["buffers"][0]["uri"] = f"data:application/octet-stream;base64,{data}"
+    path.write_text(json.dumps(content))
+    found = load_rig(path, forward="+z")
+    for rows in ("joint", "tail_joint"):
+        nodes = found.joint_node[getattr(found.segments, rows)]
+        assert nodes.tolist() == known.joint_node[getattr(known.segments, rows)].tolist()
+    assert found.segments.of_girdle.tolist() == known.segments.of_girdle.tolist()
+
+
+@pytest.mark.parametrize("name", ["wolf", "lizard", "centaur", "centipede"])
+@pytest.mark.parametrize(("axis", "sign"), [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)])
+def test_the_skin_of_built_in_creatures_bends_smoothly(name: str, axis: int, sign: float) -> None:
+    """With all joints of spine and tail at their limits at once, no edge is torn or crushed."""
+    morphology = load_rig(name)
+    table, legs = morphology.segments, morphology.legs
+    angle = 0.5 * sign * np.concatenate([table.limit, table.tail_limit])[:, axis]
+    about = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])[axis]
+    quaternion = np.concatenate([np.sin(angle)[:, None] * about, np.cos(angle)[:, None]], axis=1)
+    found = motions(table, matrices_of(quaternion))
+    seat = table.of_joint.copy()
+    for k, segment in enumerate(table.of_leg):
+        joints = np.append(legs.joint[k], legs.foot_joint[k])
+        seat[joints[joints >= 0]] = segment
+    for row, parent in enumerate(morphology.joint_parent):
+        seat[row] = seat[parent] if seat[row] < 0 else seat[row]
+    for flesh in flesh_of(morphology):
+        moved = np.zeros((len(flesh.place), 3))
+        for w in range(flesh.place.shape[1]):
+            rides = seat[flesh.row[:, w]]
+            for segment in np.unique(rides):
+                turn, place, rest = found[segment]
+                rows = np.flatnonzero(rides == segment)
+                to = place + (flesh.place[rows, w] - rest) @ turn.T
+                moved[rows] += flesh.weight[rows, w, None] * to
+        edge = np.concatenate([flesh.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+        before, after = (
+            np.linalg.norm(place[edge[:, 0]] - place[edge[:, 1]], axis=1)
+            for place in (flesh.place[:, 0], moved)
+        )
+        ratio = (after / before)[before > 0.2 * np.median(before)]
+        assert ratio.min() > 0.2
+        assert ratio.max() < 2.5
+        assert np.percentile(ratio, 99.0) < 1.6
 
 
 @pytest.mark.parametrize("name", ["spider", "ant", "crab", "pentapod", "biped"])
@@ -440,6 +508,21 @@ def test_spines_of_other_peoples_rigs(shared_rig, name, of_girdle, tail, seat) -
     assert len(table.tail_joint) == tail
     assert table.head == len(table.joint) - 1
     assert seat.items() <= seats(morphology).items()
+
+
+def test_a_head_may_be_low_and_a_root_of_its_own(tmp_path: Path) -> None:
+    """A beast that grazes, in a flat file whose last node is named as a head, too."""
+    rig = long_back(flat=True)
+    for bone in rig.bones:
+        if bone.name == "Head":
+            bone.parent, bone.place = None, (0.0, 0.1, 0.8)
+            bone.box = ((-0.06, 0.0, 0.75), (0.06, 0.15, 1.0))
+        if bone.name == "Neck":
+            bone.tip = (0.0, 0.15, 0.78)
+    rig.add("HeadMarker", "Root", (0.0, 0.1, 1.0), joint=False)
+    morphology = load_rig(rig.write(tmp_path))
+    assert_sound(morphology)
+    assert names_of(morphology, morphology.segments.joint) == CHAIN
 
 
 def test_a_quadruped_with_two_joints_in_its_trunk(tmp_path: Path) -> None:

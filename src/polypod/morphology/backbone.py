@@ -24,7 +24,7 @@ NOT_BONES = ("belly", "udder", "skirt", "cape", "cloth", "hair", "mane", "saddle
 OFF_MIDDLE = 0.05  # joints of the spine are no farther from the middle plane
 NEAR_HIPS = 0.1  # so far ahead of the hind hips the spine may begin,
 BEHIND_HIPS = 0.15  # and so far behind them
-BELOW_HIPS = 0.6  # joints of the spine lie no lower: a rig's root is often on the ground
+BELOW_HIPS = 0.6  # behind the fore legs joints of the spine lie no lower: roots are on the ground
 LEAST_TAIL = 0.15  # a tail is longer
 
 
@@ -76,10 +76,11 @@ def find_spine(middle: Middle) -> list[int]:
     the joints that lie between.
     """
     lowest = float(middle.hip[:, 1].mean()) - BELOW_HIPS * middle.length
+    place = middle.skeleton.position
     trunk = {
         node
         for node in middle.joints
-        if middle.skeleton.position[node, 1] > lowest
+        if (place[node, 1] > lowest or place[node, 2] > middle.hip[:, 2].max())
         and not has_word(middle.skeleton.name[node], *TAIL_NAMES)
     }
     chains = [middle.chain_to(head, trunk) for head in _heads(middle, trunk)]
@@ -94,18 +95,31 @@ def _heads(middle: Middle, trunk: set[int]) -> list[int]:
         node
         for node in sorted(trunk)
         if has_word(skeleton.name[node], *HEAD_NAMES)
-        and not has_word(skeleton.name[skeleton.parent[node]], *HEAD_NAMES)
+        and not _named_so(skeleton, int(skeleton.parent[node]))
     ]
     if named:
         return named
-    return [
-        node
+    ends = [
+        _without_jaw(skeleton, node, trunk)
         for node in sorted(trunk)
         if not set(skeleton.children[node]) & trunk
         and not has_word(skeleton.name[node], *NOT_HEAD)
         and _front(skeleton, node) > hip[:, 2].max() - 0.1 * middle.length
         and skeleton.position[node, 1] > hip[:, 1].mean() - 0.3 * middle.length
     ]
+    return list(dict.fromkeys(ends))
+
+
+def _without_jaw(skeleton: Skeleton, end: int, trunk: set[int]) -> int:
+    """Return the end of a chain, or the joint above it whose skin reaches as far forward."""
+    above = int(skeleton.parent[end])
+    while above in trunk and _front(skeleton, above) >= _front(skeleton, end):
+        end, above = above, int(skeleton.parent[above])
+    return end
+
+
+def _named_so(skeleton: Skeleton, node: int) -> bool:
+    return node >= 0 and has_word(skeleton.name[node], *HEAD_NAMES)
 
 
 def _front(skeleton: Skeleton, node: int) -> float:

@@ -53,7 +53,7 @@ def spine_and_tail(
             )
     else:
         tail = find_tail(middle, spine)
-        if tail and girdles > 1 and creature.spine is None:
+        if tail and spine and girdles > 1 and creature.spine is None:
             guesses.append(f"its tail {_from_to(skeleton, tail)}; a creature file names another")
     return Chains(spine, tail, guesses)
 

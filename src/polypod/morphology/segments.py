@@ -44,21 +44,25 @@ class Trunk:
         return np.asarray(self.skeleton.position[node] - self.centre)
 
     def skin(self, node: int) -> FloatArray:
-        """Return the skin [V, 3] that a node carries, body frame."""
-        return np.asarray(self.skeleton.vertex[self.skeleton.share([node]) >= 0.5] - self.centre)
+        """Return the skin [V, 3] that a node carries more than any other does, body frame."""
+        return np.asarray(self.skeleton.vertex[self.skeleton.carrier == node] - self.centre)
 
 
 def build_spine(trunk: Trunk, chains: Chains | None) -> tuple[SpineTable, list[str]]:
-    """Return the table, and what was guessed.
+    """Return the table, and what was guessed; a rigid trunk where fewer than two segments are left.
 
-    The trunk is rigid where there are no chains, or fewer than two segments are left. What lies
-    behind the hindmost girdle becomes part of the tail, and a joint from which the spine would not
-    go on is left out: it rides on its neighbour.
+    What lies behind the hindmost girdle becomes part of the tail, and a joint from which the spine
+    would not go on is left out: it rides on its neighbour.
+
+    Args:
+        trunk: the rig.
+        chains: joints of spine and tail; None where the trunk is not to bend.
     """
     legs, girdles, leg_length = trunk.legs, trunk.girdles, float(trunk.legs.length.mean())
     places = range(len(girdles.place))
-    hips = [legs.point_rest[girdles.of_leg == g, 0].mean(axis=0) for g in places]
-    girdle_rest = np.array(hips)
+    girdle_rest = np.array(
+        [legs.point_rest[girdles.of_leg == g, 0].mean(axis=0) for g in places]
+    ).reshape(-1, 3)
     nodes, behind = (list(chains.spine), list(chains.tail)) if chains else ([], [])
     while len(nodes) > 1:
         pivot = _pivots(trunk, nodes, girdle_rest[0], leg_length)
@@ -71,18 +75,30 @@ def build_spine(trunk: Trunk, chains: Chains | None) -> tuple[SpineTable, list[s
             continue
         fault = _does_not_go_on(pivot, of_girdle, SHORTEST * leg_length)
         if fault < 0:
-            break
+            table = _table(trunk, nodes, behind, pivot, of_girdle, girdle_rest)
+            return table, _guesses(trunk, nodes, of_girdle, by_tree)
         nodes.pop(fault - 1 if fault == len(nodes) - 1 else fault)
-    if len(nodes) < 2:
-        return rigid_trunk(len(legs.length), len(trunk.rows), len(girdles.place)), []
+    return rigid_trunk(len(legs.length), len(trunk.rows), len(girdles.place)), []
+
+
+def _table(
+    trunk: Trunk,
+    nodes: list[int],
+    behind: list[int],
+    pivot: FloatArray,
+    of_girdle: IntArray,
+    girdle_rest: FloatArray,
+) -> SpineTable:
+    """Return the table of a spine with its girdles in their places, and of the tail behind it."""
+    legs, leg_length = trunk.legs, float(trunk.legs.length.mean())
     row_of = {node: row for row, node in enumerate(trunk.rows)}
     length = np.linalg.norm(np.diff(pivot, axis=0), axis=1)
     tail_pivot, behind = _tail_pivots(trunk, nodes[0], behind, SHORTEST * leg_length)
     tail_length = np.linalg.norm(np.diff(tail_pivot, axis=0), axis=1)
-    of_leg = of_girdle[girdles.of_leg]
+    of_leg = of_girdle[trunk.girdles.of_leg]
     neck = int(of_girdle[-1]) + 1
     upright = bool(np.mean(legs.upright) > 0.5)
-    table = SpineTable(
+    return SpineTable(
         joint=np.array([row_of[node] for node in nodes], np.int64),
         pivot_rest=pivot,
         bone_length=length,
@@ -99,7 +115,6 @@ def build_spine(trunk: Trunk, chains: Chains | None) -> tuple[SpineTable, list[s
         tail_length=tail_length,
         tail_limit=tail_limits(tail_length),
     )
-    return table, _guesses(trunk, nodes, of_girdle, by_tree)
 
 
 def _pivots(trunk: Trunk, nodes: list[int], hips: FloatArray, leg_length: float) -> FloatArray:
