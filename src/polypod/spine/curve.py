@@ -36,7 +36,7 @@ def node_way(g: int, node: Any) -> Vec3:
 def curve_at(g: int, u: float, node: Any, tables: Any) -> Vec3:
     """Return a point of the curve between a girdle and the next, body frame, m.
 
-    Against the straight line between the two at rest, so that girdles of unequal height are no bend.
+    Against the straight line between the two at rest: girdles of unequal height are no bend.
     """
     span = float(tables.girdles.place[g + 1] - tables.girdles.place[g])
     begin = Vec3(node[g, 0], node[g, 1], float(tables.girdles.place[g]))

@@ -21,8 +21,8 @@ from polypod.controller.rest import place_body
 # Share of a foot's pitch that its girdle takes on: erect legs flex their spine.
 FLEXION = 0.35
 # Sprawling legs yaw their girdles: a lizard's pelvis by so much either way whatever its speed
-# (Ritter 1992), rad. Less where its steps are so short that it would yaw so many times as far as its
-# feet, and where girdles are close together, as a centipede's.
+# (Ritter 1992), rad. Less where its steps are so short that it would yaw so many times as far as
+# its feet, and where girdles are close together, as a centipede's.
 PELVIC_YAW = math.radians(18.0)
 MOST_YAW_SHARE = 2.0
 LEAST_YAW = 0.02
@@ -146,8 +146,8 @@ def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: A
 def step_yaw(c: int, k: int, beside: float, state: Any, command: Any) -> float:
     """Return how far to either side a foot turns about its girdle with its partner in turns, rad.
 
-    `beside` is how far beside the girdle it rests, m. While one foot is at its end the partner, half
-    a cycle behind, is the nearer to the other end the less they overlap.
+    `beside` is how far beside the girdle it rests, m. While one foot is at its end the partner,
+    half a cycle behind, is the nearer to the other end the less they overlap.
     """
     rate = state.cycle_rate[c]
     if rate <= 0.0:

@@ -17,8 +17,8 @@ from polypod.math.quat import Quat, from_axis_angle, from_heading, load_quat, ro
 from polypod.math.vec3 import Vec3, load_vec3
 from polypod.spine.advancing import yaw_along
 
-# How quickly a girdle is on the track that it is off: for its own distance from the body centre that
-# the body goes, or a radian that it turns, as an exponential of so much.
+# How quickly a girdle is on the track that it is off: for its own distance from the body centre
+# that the body goes, or a radian that it turns, as an exponential of so much.
 CARRY = 3.0
 
 

@@ -1,0 +1,246 @@
+"""Whole walks of creatures whose spines bend: what must hold wherever they go."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from polypod.config import Settings
+from polypod.environment.environment import Environment
+from polypod.environment.terrain import Terrain
+from polypod.herd import Herd
+from polypod.morphology.load import load_rig
+from polypod.morphology.types import Morphology
+from polypod.recording import add_frame
+from polypod.report.arrays import rotate_all
+from polypod.report.backbone import backbone_figures, joint_angles
+from polypod.report.figures import measure
+from polypod.report.record import Recorder, Recording
+from polypod.world import World
+
+FPS = 30
+SPINED = ("wolf", "lizard")
+
+
+def brisk(morphology: Morphology) -> float:
+    """Return a comfortable walking speed, m/s."""
+    return 0.25 * math.sqrt(9.81 * float(morphology.legs.length.mean()))
+
+
+def go(
+    morphology: Morphology,
+    seconds: float,
+    steer: Callable[[float, Herd], None] = lambda time, herd: None,
+    place: Environment | None = None,
+    **asked: object,
+) -> tuple[Recording, World]:
+    """Walk and return the record; `steer(time, herd)` before each frame."""
+    world = World(place, threads=1)
+    herd = world.add(morphology, **{"speed": brisk(morphology), "position": [0.0, 0.0], **asked})  # type: ignore[arg-type]
+    recorder = Recorder(morphology, len(world.environment.obstacles))
+    add_frame(recorder, world, herd, 0)
+    for frame in range(round(seconds * FPS)):
+        steer(frame / FPS, herd)
+        world.step(1.0 / FPS)
+        world.time = (frame + 1) / FPS
+        add_frame(recorder, world, herd, 0)
+    return recorder.finish(), world
+
+
+def circle(side: float) -> Callable[[float, Herd], None]:
+    def steer(time: float, herd: Herd) -> None:
+        if time > 0.5:
+            herd.command.heading = herd.state.heading[0] + 0.8 * side
+
+    return steer
+
+
+def eight(time: float, herd: Herd) -> None:
+    circle(1.0 if time < 3.0 else -1.0)(time, herd)
+
+
+def pushed(time: float, herd: Herd) -> None:
+    if abs(time - 1.0) < 0.5 / FPS:
+        at = 0.8 * float(herd.morphology.body.half_size[2])
+        herd.push([2.0 * brisk(herd.morphology), 0.0, 0.0], at=at)
+
+
+def turn_back(time: float, herd: Herd) -> None:
+    herd.command.heading = 0.0 if time < 1.0 else math.pi - 0.1
+
+
+def stairs(morphology: Morphology) -> Environment:
+    leg = float(morphology.legs.length.mean())
+    return Environment(Terrain.stairs(rise=0.15 * leg, run=0.8 * leg, count=6, start=1.5 * leg))
+
+
+def hills(morphology: Morphology) -> Environment:
+    leg = float(morphology.legs.length.mean())
+    return Environment(
+        Terrain.hills(seed=4, relief=0.8 * leg, wavelength=7.0 * leg, size=60.0 * leg)
+    )
+
+
+WAYS = {
+    "straight": (lambda time, herd: None, None, 4.0),
+    "circle to the left": (circle(1.0), None, 4.0),
+    "circle to the right": (circle(-1.0), None, 4.0),
+    "figure of eight": (eight, None, 6.0),
+    "back": (turn_back, None, 5.0),
+    "stairs": (lambda time, herd: None, stairs, 5.0),
+    "hills": (circle(0.3), hills, 5.0),
+    "pushed": (pushed, None, 3.0),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("name", SPINED)
+def test_what_holds_in_every_frame(name: str, way: str) -> None:
+    morphology = load_rig(name)
+    steer, place, seconds = WAYS[way]
+    environment = place(morphology) if place is not None else None
+    recording, world = go(morphology, seconds, steer, environment)
+    figures = measure(recording, world.environment.table, joint_limits=True)
+    assert figures["bone_variation"] < 1e-6
+    assert figures["spine_limit_excess_deg"] < 1e-6
+    assert figures["spine_twist_step_deg"] < 10.0
+    assert figures["joint_limit_excess_deg"] < 1e-3
+    assert figures["stance_slip_of_leg"] < 1e-3
+    assert figures["stance_residual_of_leg"] < 1e-3
+    # It does bend.
+    if way not in ("straight", "stairs", "pushed"):
+        assert (
+            np.degrees(
+                np.abs(joint_angles(recording)[:, : morphology.segments.neck - 1, 0])
+                .sum(axis=1)
+                .max()
+            )
+            > 15.0
+        )
+
+
+def place_of(recording: Recording, segment: int, rest: np.ndarray) -> np.ndarray:
+    """Return where a point of a segment, at rest in the body frame, is in each frame [F, 3]."""
+    morphology = recording.morphology
+    row = int(morphology.segments.joint[segment])
+    arm = rest - morphology.joint_rest[row]
+    return recording.joint_position[:, row] + rotate_all(recording.joint_rotation[:, row], arm)
+
+
+def distance_to_way(points: np.ndarray, way: np.ndarray) -> float:
+    """Return the farthest of points [N, 2] from a polyline [F, 2]."""
+    begin, step = way[:-1], np.diff(way, axis=0)
+    most = 0.0
+    for point in points:
+        share = np.einsum("fi,fi->f", point - begin, step)
+        share = np.clip(share / np.maximum(np.einsum("fi,fi->f", step, step), 1e-18), 0.0, 1.0)
+        most = max(most, np.linalg.norm(begin + share[:, None] * step - point, axis=1).min())
+    return float(most)
+
+
+def turn_by(angle: float) -> Callable[[float, Herd], None]:
+    def steer(time: float, herd: Herd) -> None:
+        if time >= 1.0:
+            herd.command.heading = angle
+
+    return steer
+
+
+def off_the_track(recording: Recording) -> float:
+    """Return how far the hindmost girdle strays from where the head went, body lengths."""
+    spine = recording.morphology.segments
+    head = place_of(recording, spine.head, spine.pivot_rest[spine.head])[:, [0, 2]]
+    hind = place_of(recording, 0, spine.girdle_rest[0])[:, [0, 2]]
+    length = float(spine.pivot_rest[-1, 2] - spine.pivot_rest[0, 2])
+    came_from = head[:1] - [[0.0, 3.0 * length]]
+    return distance_to_way(hind, np.concatenate([came_from, head])) / length
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_the_head_leads_and_the_back_follows_on_its_track(side: float) -> None:
+    morphology = load_rig("wolf")
+    turn = turn_by(0.5 * math.pi * side)
+    bent, _ = go(morphology, 5.0, turn)
+    rigid, _ = go(morphology, 5.0, turn, settings=Settings(spine=0.0))
+    assert off_the_track(bent) < 0.10
+    assert off_the_track(rigid) > 0.15
+    # The head has turned by 20 degrees before the chest has, and that before the pelvis.
+    spine = morphology.segments
+    ahead = np.array([0.0, 0.0, 1.0])
+    turned = [
+        rotate_all(bent.joint_rotation[:, spine.joint[s]], ahead)
+        for s in (spine.head, int(spine.of_girdle[-1]), 0)
+    ]
+    yaw = [np.arctan2(way[:, 0], way[:, 2]) * side for way in turned]
+    first = [int(np.argmax(angle > math.radians(20.0))) for angle in yaw]
+    assert 0 < first[0] < first[1] < first[2]
+    # And the trunk is straight again in the end.
+    assert np.degrees(np.abs(joint_angles(bent)[-1, : spine.neck - 1, 0])).max() < 2.0
+
+
+@pytest.mark.parametrize("share", [0.6, 1.0])
+def test_a_lizard_yaws_its_pelvis_as_lizards_do(share: float) -> None:
+    """36 degrees in total, as a standing wave, concave where fore and hind foot come together."""
+    morphology = load_rig("lizard")
+    recording, _ = go(morphology, 5.0, speed=share * brisk(morphology))
+    figures = backbone_figures(recording)
+    assert figures["pelvis_yaw_deg"] == pytest.approx(36.0, rel=0.3)
+    assert figures["spine_flexion_deg"] < 6.0
+    spine = morphology.segments
+    steady = slice(round(1.5 * FPS), None)
+    trunk = joint_angles(recording)[steady, : spine.neck - 1, 0].sum(axis=1)
+    # A chest yawed to the left of the pelvis is concave on the left.
+    feet = recording.foot_position[steady]
+    side = [
+        np.linalg.norm(feet[:, fore] - feet[:, hind], axis=1) for hind, fore in ((0, 2), (1, 3))
+    ]
+    assert np.corrcoef(trunk, side[1] - side[0])[0, 1] > 0.8
+    joints = joint_angles(recording)[steady, : spine.neck - 1, 0]
+    lags = [np.corrcoef(joints[:, 0], joints[:, s])[0, 1] for s in range(joints.shape[1])]
+    assert min(lags) > 0.5, "all of the trunk bends to one side at a time"
+
+
+def test_effects_of_the_gait_are_scaled_to_nothing() -> None:
+    morphology = load_rig("lizard")
+    still = Settings(spine_yaw=0.0, spine_flexion=0.0)
+    recording, _ = go(morphology, 4.0, settings=still)
+    assert backbone_figures(recording)["pelvis_yaw_deg"] < 0.5
+    rigid, _ = go(morphology, 4.0, circle(1.0), settings=Settings(spine=0.0))
+    assert np.abs(joint_angles(rigid)).max() < 1e-12
+
+
+@pytest.mark.parametrize(("gait", "speed"), [("bound", 4.0), ("transverse-gallop", 3.0)])
+def test_a_gallop_flexes_with_the_hind_feet(gait: str, speed: float) -> None:
+    """Most flexed about the hind feet's touchdown, most stretched after they have pushed off."""
+    morphology = load_rig("wolf")
+    recording, _ = go(morphology, 6.0, speed=speed, gait=gait)
+    steady = slice(3 * FPS, None)
+    flexion = -joint_angles(recording)[steady, : morphology.segments.neck - 1, 1].sum(axis=1)
+    stance = recording.foot_stance[steady]
+    hind = stance[:, 0] | stance[:, 1]
+    down = np.flatnonzero(hind[1:] & ~hind[:-1]) + 1
+    up = np.flatnonzero(~hind[1:] & hind[:-1]) + 1
+    middle = 0.5 * (flexion.max() + flexion.min())
+    assert np.median(flexion[down]) > middle + 0.2 * np.ptp(flexion)
+    after = np.minimum(up + 1, len(flexion) - 1)
+    assert np.median(flexion[after]) < middle - 0.2 * np.ptp(flexion)
+    assert 15.0 < backbone_figures(recording)["spine_flexion_deg"] < 60.0
+
+
+def test_a_trot_hardly_flexes() -> None:
+    recording, _ = go(load_rig("wolf"), 4.0, speed=1.6, gait="trot")
+    assert backbone_figures(recording)["spine_flexion_deg"] < 8.0
+
+
+def test_a_long_body_goes_where_its_head_went() -> None:
+    """A centipede's last legs follow its first; a rigid one of its length cuts the corner."""
+    morphology = load_rig("centipede")
+    turn = turn_by(1.0)
+    speed = 0.5 * brisk(morphology)
+    bent, _ = go(morphology, 9.0, turn, speed=speed)
+    rigid, _ = go(morphology, 9.0, turn, speed=speed, settings=Settings(spine=0.0))
+    assert off_the_track(bent) < 0.10
+    assert off_the_track(rigid) > 2.0 * off_the_track(bent)
