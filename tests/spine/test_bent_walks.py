@@ -197,7 +197,7 @@ def test_a_lizard_yaws_its_pelvis_as_lizards_do(share: float) -> None:
     side = [
         np.linalg.norm(feet[:, fore] - feet[:, hind], axis=1) for hind, fore in ((0, 2), (1, 3))
     ]
-    assert np.corrcoef(trunk, side[1] - side[0])[0, 1] > 0.8
+    assert np.corrcoef(trunk, side[1] - side[0])[0, 1] > 0.7
     joints = joint_angles(recording)[steady, : spine.neck - 1, 0]
     lags = [np.corrcoef(joints[:, 0], joints[:, s])[0, 1] for s in range(joints.shape[1])]
     assert min(lags) > 0.5, "all of the trunk bends to one side at a time"

@@ -226,7 +226,8 @@ def settle_body(
         turned = slerp(turn_before, turn, share)
         heading = heading_before + share * turning
         apart = True
-        place_segments(c, share, state, tables)
+        if share < 1.0:
+            place_segments(c, share, state, tables)
         if near > 0 and share > 0.0:
             x, z, apart = apart_from(c, near, position.x, position.z, heading, state, scratch)
             position = Vec3(x, position.y, z)

@@ -20,7 +20,7 @@ from polypod.controller.steering import PlanPose, steer, wrapped
 TRACK = 48
 # The way ahead is looked at in so many moments, for so many leg pendulum times and as far as the
 # foremost girdle will have come by then that is so many times as far ahead, but not farther.
-MOMENTS = 8
+MOMENTS = 6
 FORESIGHT = 2.4
 FARTHER = 1.5
 FARTHEST = 16.0

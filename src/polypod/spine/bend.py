@@ -23,8 +23,8 @@ SMOOTH = 0.6
 SMOOTH_GAZE = 0.5
 # One that is farther ahead than this, leg lengths, within the time in which it walks the rest, and
 # at most so many leg pendulum times.
-AT_ONCE = 0.6
-SLOWEST_SWING = 10.0
+AT_ONCE = 0.4
+SLOWEST_SWING = 20.0
 # What `follow` lags behind what moves steadily by, shares of its time.
 LAG = 0.75
 # What is left of it below this share, of a spine that shall not bend, is nothing.
@@ -64,12 +64,14 @@ def bend_spine(
             more[g, axis] = node[g, axis]
     bounce_girdles(c, more, state, tables)
     induce(c, more, state, command, tables, settings)
+    chest, inside = draw_curve(c, more, state, tables)
     # The way comes first: the gait bends the spine by what the limits leave.
-    share = room_for(node, more, tables)
+    share = 1.0 if inside else room_for(node, more, tables)
     for g in range(node.shape[0]):
         for axis in range(4):
             node[g, axis] += share * (more[g, axis] - node[g, axis])
-    chest = draw_curve(c, node, state, tables)
+    if not inside:
+        chest, _ = draw_curve(c, node, state, tables)
     move_ends(c, dt, chest, node, state, tables, settings)
     place_segments(c, 1.0, state, tables)
 

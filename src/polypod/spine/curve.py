@@ -99,9 +99,10 @@ def room_of(own: float, whole: float, limit: float) -> float:
 
 
 @kernel
-def draw_curve(c: int, node: Any, state: Any, tables: Any) -> Quat:
+def draw_curve(c: int, node: Any, state: Any, tables: Any) -> tuple[Quat, bool]:
     """Write the angles of the trunk's joints, and where it begins; return the chest's rotation.
 
+    And whether all angles were within their limits, into which they are brought.
     `node` [G, 4] says for each girdle how far it is to be to the left and up, m, and its yaw and
     pitch, rad, against the body frame.
     """
@@ -109,10 +110,13 @@ def draw_curve(c: int, node: Any, state: Any, tables: Any) -> Quat:
     turn = Quat(0.0, 0.0, 0.0, 1.0)
     pivot = load_vec3(spine.pivot_rest[0])
     gap = Vec3(0.0, 0.0, 0.0)
+    inside = True
     for s in range(max(spine.neck, 1)):
         angles = joint_angles(conjugate(turn) * segment_turn(s, node, tables))
         if s > 0:
-            angles = within(angles, spine.limit[s])
+            kept = within(angles, spine.limit[s])
+            inside = inside and kept == angles
+            angles = kept
         store_vec3(state.spine_wish[c, s], angles)
         turn = turn * joint_turn(angles.x, angles.y, angles.z)
         begin = load_vec3(spine.pivot_rest[s])
@@ -123,4 +127,4 @@ def draw_curve(c: int, node: Any, state: Any, tables: Any) -> Quat:
             gap = gap + (node_place(g, node, tables) - reached) * tables.girdles.weight[g]
         pivot = pivot + rotate(turn, load_vec3(spine.pivot_rest[s + 1]) - begin)
     store_vec3(state.spine_base_wish[c], gap)
-    return turn
+    return turn, inside
