@@ -156,6 +156,7 @@ def make_state(
         "girdle_bend": (c, girdles, 4, 3),
         "girdle_was": (c, girdles, 4, 3),
         "spine_share": (c, 2, 3),
+        "spine_struck": (c, 2),
         "gaze": (c, 3),
         "tail_sway": (c, tail, 2, 3),
         "track": (c, TRACK),

@@ -32,6 +32,7 @@ from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
+from polypod.spine.struck import bend_by_blow
 from polypod.spine.table import make_bend_table
 from polypod.state import HerdTables, JointTable
 
@@ -203,6 +204,7 @@ class Herd:
         state, tables = self.state, self.tables
         blow = strike(given, state.heading[rows], at, tables.body, tables.recovery)
         land_blow(blow, rows, state, tables)
+        bend_by_blow(given, at, rows, state, tables)
 
     def judge_push(
         self, velocity: ArrayLike, creature: int | slice, at: float

@@ -157,6 +157,7 @@ class HerdState(NamedTuple):
     girdle_was: FloatArray  # [C, G, 4, 3] the same as the step began
     spine_share: FloatArray  # [C, 2, 3] how much the spine takes on of the track, which is nothing
     # of who goes sideways, and of what the gait bends it by; smoothed
+    spine_struck: FloatArray  # [C, 2] rad and rad/s: the bend that pushes gave it, of the front
     gaze: FloatArray  # [C, 3] rad: the head's yaw against the body's axis, smoothed
     tail_sway: FloatArray  # [C, T, 2, 3] rad: yaw and pitch that have come so far down the tail
     track: FloatArray  # [C, TRACK] rad: yaws of the way behind against the present heading

@@ -22,6 +22,7 @@ def herd(request: pytest.FixtureRequest) -> Herd:
     return Herd(load_rig(request.param), 1, Settings())
 
 
+@settings(deadline=None)
 @given(ANGLE, ANGLE, ANGLE)
 def test_angles_are_those_that_a_turn_was_made_of(yaw: float, pitch: float, roll: float) -> None:
     assert joint_angles(joint_turn(yaw, pitch, roll)) == pytest.approx(
@@ -29,6 +30,7 @@ def test_angles_are_those_that_a_turn_was_made_of(yaw: float, pitch: float, roll
     )
 
 
+@settings(deadline=None)
 @given(ANGLE, ANGLE, ANGLE)
 def test_angles_are_brought_within_limits_and_no_farther(x: float, y: float, z: float) -> None:
     limit = np.array([0.3, 0.2, 0.1])

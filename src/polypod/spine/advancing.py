@@ -37,8 +37,10 @@ def note_track(c: int, dt: float, pose: PlanPose, state: Any, command: Any, tabl
     `track[c]` are yaws against the present heading, the first `track_gone` behind the body centre
     and the others `track_step` apart.
     """
-    turned = wrapped(pose.heading - state.track_from[c])
-    state.track_from[c] = pose.heading
+    # A push turns a body off its path, and not its path.
+    heading = pose.heading - pose.aside.heading
+    turned = wrapped(heading - state.track_from[c])
+    state.track_from[c] = heading
     pendulum = tables.pendulum_time
     speed = max(0.0, math.cos(command.travel[c])) * 0.5 * (state.speed[c] + pose.speed)
     slow = max(0.0, 1.0 - speed * pendulum / (WALKING * tables.leg_length))
@@ -69,13 +71,14 @@ def note_way(c: int, pose: PlanPose, state: Any, command: Any, tables: Any, sett
     along = max(0.0, math.cos(command.travel[c]))
     way = state.way_ahead[c]
     arc = 0.0
+    begun = pose.heading - pose.aside.heading
     then = pose
     for i in range(MOMENTS):
         before = then
         then = steer(before, c, state, command, tables, settings, dt)
         arc += along * 0.5 * (before.speed + then.speed) * dt
         way[i, 0] = arc
-        way[i, 1] = wrapped(then.heading - pose.heading)
+        way[i, 1] = wrapped(then.heading - then.aside.heading - begun)
 
 
 @kernel

@@ -16,15 +16,16 @@ from polypod.spine.chain import place_segments
 from polypod.spine.curve import draw_curve, room_for
 from polypod.spine.elevation import bounce_girdles, carry_girdles, induce
 from polypod.spine.orientation import pass_back, turn_neck, wished_gaze
+from polypod.spine.struck import yield_to_push
 from polypod.spine.tail import swing_tail
 
 # Girdles follow what they are to do within so many leg pendulum times, and the head.
 SMOOTH = 0.6
 SMOOTH_GAZE = 0.5
-# One that is farther ahead than this, leg lengths, within the time in which it walks the rest, and
-# at most so many leg pendulum times.
+# One that is farther ahead than this, leg lengths, within the time in which it walks the rest, if
+# it does so faster than this, leg lengths a pendulum time.
 AT_ONCE = 0.4
-SLOWEST_SWING = 20.0
+STANDING = 0.03
 # What `follow` lags behind what moves steadily by, shares of its time.
 LAG = 0.75
 # What is left of it below this share, of a spine that shall not bend, is nothing.
@@ -64,6 +65,7 @@ def bend_spine(
             more[g, axis] = node[g, axis]
     bounce_girdles(c, more, state, tables)
     induce(c, more, state, command, tables, settings)
+    yield_to_push(c, dt, more, state, tables)
     chest, inside = draw_curve(c, more, state, tables)
     # The way comes first: the gait bends the spine by what the limits leave.
     share = 1.0 if inside else room_for(node, more, tables)
@@ -80,12 +82,13 @@ def bend_spine(
 def swing_seconds(place: float, speed: float, tables: Any) -> float:
     """Return the time in which a girdle follows, s; `place` is how far it is ahead, m.
 
-    One far ahead swings aside no faster than it walks: its feet are to follow it.
+    One far ahead swings aside no faster than it walks: its feet are to follow it. Who turns on the
+    spot steps with all of them.
     """
     pendulum = tables.pendulum_time
     far = max(place - AT_ONCE * tables.leg_length, 0.0)
-    swing = min(far / max(speed, 1e-9), SLOWEST_SWING * pendulum)
-    return float(max(SMOOTH * pendulum, swing))
+    slow = STANDING * tables.leg_length / pendulum
+    return float(max(SMOOTH * pendulum, far * speed / (speed * speed + slow * slow)))
 
 
 @kernel

@@ -58,7 +58,8 @@ def girdle_ahead(c: int, g: int, then: PlanPose, state: Any, tables: Any) -> tup
     gone_x = then.x - state.position[c, 0]
     gone_z = then.z - state.position[c, 2]
     gone = math.sqrt(gone_x * gone_x + gone_z * gone_z)
-    turned = wrapped(then.heading - state.heading[c])
+    turned = then.heading - then.aside.heading - state.heading[c] + state.deflection[c, 2]
+    turned = wrapped(turned)
     if lead <= 0.0 or (gone == 0.0 and turned == 0.0):
         return left, yaw
     place = float(tables.girdles.place[g])
