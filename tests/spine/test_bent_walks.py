@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from spines import FPS, brisk, go, off_the_track, turn_by
 
 from polypod.config import Settings
 from polypod.environment.environment import Environment
@@ -14,40 +15,11 @@ from polypod.environment.terrain import Terrain
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 from polypod.morphology.types import Morphology
-from polypod.recording import add_frame
 from polypod.report.arrays import rotate_all
 from polypod.report.backbone import backbone_figures, joint_angles
 from polypod.report.figures import measure
-from polypod.report.record import Recorder, Recording
-from polypod.world import World
 
-FPS = 30
 SPINED = ("wolf", "lizard")
-
-
-def brisk(morphology: Morphology) -> float:
-    """Return a comfortable walking speed, m/s."""
-    return 0.25 * math.sqrt(9.81 * float(morphology.legs.length.mean()))
-
-
-def go(
-    morphology: Morphology,
-    seconds: float,
-    steer: Callable[[float, Herd], None] = lambda time, herd: None,
-    place: Environment | None = None,
-    **asked: object,
-) -> tuple[Recording, World]:
-    """Walk and return the record; `steer(time, herd)` before each frame."""
-    world = World(place, threads=1)
-    herd = world.add(morphology, **{"speed": brisk(morphology), "position": [0.0, 0.0], **asked})  # type: ignore[arg-type]
-    recorder = Recorder(morphology, len(world.environment.obstacles))
-    add_frame(recorder, world, herd, 0)
-    for frame in range(round(seconds * FPS)):
-        steer(frame / FPS, herd)
-        world.step(1.0 / FPS)
-        world.time = (frame + 1) / FPS
-        add_frame(recorder, world, herd, 0)
-    return recorder.finish(), world
 
 
 def circle(side: float) -> Callable[[float, Herd], None]:
@@ -120,43 +92,6 @@ def test_what_holds_in_every_frame(name: str, way: str) -> None:
             )
             > 15.0
         )
-
-
-def place_of(recording: Recording, segment: int, rest: np.ndarray) -> np.ndarray:
-    """Return where a point of a segment, at rest in the body frame, is in each frame [F, 3]."""
-    morphology = recording.morphology
-    row = int(morphology.segments.joint[segment])
-    arm = rest - morphology.joint_rest[row]
-    return recording.joint_position[:, row] + rotate_all(recording.joint_rotation[:, row], arm)
-
-
-def distance_to_way(points: np.ndarray, way: np.ndarray) -> float:
-    """Return the farthest of points [N, 2] from a polyline [F, 2]."""
-    begin, step = way[:-1], np.diff(way, axis=0)
-    most = 0.0
-    for point in points:
-        share = np.einsum("fi,fi->f", point - begin, step)
-        share = np.clip(share / np.maximum(np.einsum("fi,fi->f", step, step), 1e-18), 0.0, 1.0)
-        most = max(most, np.linalg.norm(begin + share[:, None] * step - point, axis=1).min())
-    return float(most)
-
-
-def turn_by(angle: float) -> Callable[[float, Herd], None]:
-    def steer(time: float, herd: Herd) -> None:
-        if time >= 1.0:
-            herd.command.heading = angle
-
-    return steer
-
-
-def off_the_track(recording: Recording) -> float:
-    """Return how far the hindmost girdle strays from where the head went, body lengths."""
-    spine = recording.morphology.segments
-    head = place_of(recording, spine.head, spine.pivot_rest[spine.head])[:, [0, 2]]
-    hind = place_of(recording, 0, spine.girdle_rest[0])[:, [0, 2]]
-    length = float(spine.pivot_rest[-1, 2] - spine.pivot_rest[0, 2])
-    came_from = head[:1] - [[0.0, 3.0 * length]]
-    return distance_to_way(hind, np.concatenate([came_from, head])) / length
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
