@@ -19,7 +19,7 @@ from polypod.ik.limits import limit_excess
 from polypod.ik.table import build_ik_table
 from polypod.report.arrays import conjugate_all, multiply_all, runs_of, widest
 from polypod.report.ground import Ground
-from polypod.report.joints import leg_rows
+from polypod.report.joints import frames_of_leg, leg_rows
 from polypod.report.played import soles_played
 from polypod.report.record import Recording, bones
 from polypod.rigs.export import glb_bytes
@@ -220,11 +220,11 @@ def _limits(walk: _Walk) -> Finding:
     recording = walk.recording
     legs = recording.morphology.legs
     ik = build_ik_table(legs)
-    body = conjugate_all(recording.body_rotation)
     excess = np.zeros(recording.foot_stance.shape)
     for leg, count in enumerate(legs.joint_count):
         rows = legs.joint[leg, :count]
-        turned = multiply_all(body[:, None], recording.joint_rotation[:, rows])
+        unturned = conjugate_all(frames_of_leg(recording, leg))[:, None]
+        turned = multiply_all(unturned, recording.joint_rotation[:, rows])
         for frame in range(len(turned)):
             excess[frame, leg] = limit_excess(ik, leg, turned[frame])
     return walk.worst(np.degrees(excess), np.ones_like(excess, np.bool_), 1e-3)

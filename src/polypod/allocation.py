@@ -11,6 +11,7 @@ from polypod.body.particles import HARMONICS
 from polypod.morphology.types import BoolArray, IntArray
 from polypod.paths.curve import path_store
 from polypod.routes.state import make_route_state
+from polypod.spine.advancing import MOMENTS, TRACK
 from polypod.state import HerdCommand, HerdState
 
 
@@ -26,8 +27,10 @@ def _dtype(hint: Any) -> Any:
     return np.bool_ if hint == BoolArray else np.float64
 
 
-def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
-    """Return the state of a herd, all zero."""
+def make_state(
+    count: int, feet: int, joints: int, girdles: int, segments: int, tail: int
+) -> HerdState:
+    """Return the state of a herd, all zero; `segments` of a spine, and `tail` of its tail."""
     c, k, j = count, feet, joints
     scalar = dict.fromkeys(
         (
@@ -74,6 +77,8 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
             "caught",
             "caught_clock",
             "shy",
+            "track_gone",
+            "track_from",
         ),
         (c,),
     )
@@ -153,13 +158,29 @@ def make_state(count: int, feet: int, joints: int, girdles: int) -> HerdState:
         "nod": (c, 2),
         "room": (c, 2),
         "sway_share": (c, 3),
+        "segment_shift": (c, segments + tail, 3),
+        "segment_turn": (c, segments + tail, 4),
+        "spine_angle": (c, segments + tail, 3),
+        "spine_base": (c, 3),
+        "spine_wish": (c, segments + tail, 3),
+        "spine_base_wish": (c, 3),
+        "girdle_bend": (c, girdles, 4, 3),
+        "girdle_was": (c, girdles, 4, 3),
+        "spine_share": (c, 2, 3),
+        "spine_struck": (c, 2),
+        "gaze": (c, 3),
+        "tail_sway": (c, tail, 2, 3),
+        "track": (c, TRACK),
+        "way_ahead": (c, MOMENTS, 2),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),
     }
     state: HerdState = _allocate(
         HerdState, shapes, path=path_store(c, k), route=make_route_state(c)
     )
-    for turn in (state.rotation, state.joint_rotation, state.foot_rotation):
+    for turn in (
+        state.rotation, state.joint_rotation, state.foot_rotation, state.segment_turn
+    ):  # fmt: skip
         turn[..., 3] = 1.0
     state.foot_rotation_start[..., 3] = 1.0
     state.foot_rotation_target[..., 3] = 1.0

@@ -14,6 +14,8 @@ Tuning, by symptom:
 * creatures of a crowd crowd too much, or too little: raise or lower `personal_space`;
 * the body bounces or nods too much, or looks as if it floated: `bounce`, `nod`, `vaulting`;
 * it rocks from side to side: lower `sway`;
+* turns look stiff, or too supple: `spine`; a lizard wriggles too much: `spine_yaw`; a gallop
+  arches its back too much: `spine_flexion`; the head looks about too much: `gaze`;
 * swing feet twitch when the heading changes: raise `replan_distance`;
 * feet scrape or step too high: `step_height`; they start and stop too gently: `swing_profile`;
 * a foot's toes or heel hang in the air on steep ground: raise `foot_tilt`, then `ankle_range`;
@@ -118,6 +120,22 @@ class Settings:
 
     sway: float = 1.0
     """Scale of an upright animal's sway toward the feet that stand."""
+
+    spine: float = 1.0
+    """How much a spine bends: along the way in turns, by its gait, neck and tail; 0: a rigid trunk
+    (P2 5)."""
+
+    spine_yaw: float = 1.0
+    """Scale of the yaw of a sprawler's girdles by their feet, P2's visual yaw effect; 0: none."""
+
+    spine_flexion: float = 1.0
+    """Scale of the flexion of upright animals' spines by their feet, as in a gallop; 0: none."""
+
+    gaze: float = 1.0
+    """How much the head turns toward the way ahead and keeps level; 0: it rides on the chest."""
+
+    tail: float = 1.0
+    """How much the tail follows and swings; 0: it is stiff."""
 
     feedback_share: float = 0.35
     """Share of the mean offset of chosen footprints by which the body shifts (P1 3.2, Fig 7)."""

@@ -30,6 +30,7 @@ from polypod.ik.skeleton import pose_joints
 from polypod.math.vec3 import load_vec3, store_vec3
 from polypod.morphology.types import FloatArray
 from polypod.routes.way import keep_ways
+from polypod.spine.bend import bend_spine
 
 # Longer steps than this are no frames that anybody watches.
 LONGEST_FRAME = 0.05
@@ -110,6 +111,8 @@ def settle_creatures(
         update_tilt(c, seconds, plane, state, tables, settings)
         # What the gait adds to them.
         sway = move_trunk(c, seconds, state, command, tables, settings)
+        # The spine along the track, over its girdles' feet.
+        bend_spine(c, seconds, pose, plane, state, command, tables, settings, scratch)
         lean = trunk_rotation(c, pose.heading, state)
         height = wished_height(
             c, seconds, pose, plane, lean, state, command, tables, settings, env, scratch

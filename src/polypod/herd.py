@@ -34,6 +34,8 @@ from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
+from polypod.spine.struck import bend_by_blow
+from polypod.spine.table import make_bend_table
 from polypod.state import HerdTables, JointTable
 
 WAYPOINT_ROOM = 256
@@ -74,6 +76,9 @@ class Scratch(NamedTuple):
     leg_point: FloatArray  # [M + 1, 3]
     route: RouteScratch
     company: Company  # all creatures of the world, as all threads read them
+    node: FloatArray  # [G, 4] where the spine's girdles are to be, see polypod.spine.curve
+    more: FloatArray  # [G, 4] the same with what the gait adds
+    wish: FloatArray  # [G] rad
     neighbour: IntArray  # [HEEDED] rows of the company
     neighbour_gap: FloatArray  # [HEEDED] m
 
@@ -98,10 +103,13 @@ def make_tables(morphology: Morphology) -> HerdTables:
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
     hip_height = max(hip_height, 0.05 * leg_length)
     ik = build_ik_table(legs)
+    girdles = find_girdles(legs)
     return HerdTables(
         legs=legs,
         ik=ik,
-        girdles=find_girdles(legs),
+        girdles=girdles,
+        spine=morphology.segments,
+        bend=make_bend_table(morphology.segments, girdles, legs),
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
@@ -149,7 +157,15 @@ class Herd:
         self.morphology = morphology
         self.plan_settings = PlanSettings()
         self.tables = make_tables(morphology)
-        self.state = make_state(count, feet, joints, len(self.tables.girdles.place))
+        spine = self.tables.spine
+        self.state = make_state(
+            count,
+            feet,
+            joints,
+            len(self.tables.girdles.place),
+            len(spine.joint),
+            len(spine.tail_joint),
+        )
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
         self.command.step_height = min(
@@ -193,6 +209,7 @@ class Herd:
         state, tables = self.state, self.tables
         blow = strike(given, state.heading[rows], at, tables.body, tables.recovery)
         land_blow(blow, rows, state, tables)
+        bend_by_blow(given, at, rows, state, tables)
 
     def judge_push(
         self, velocity: ArrayLike, creature: int | slice, at: float
@@ -304,6 +321,9 @@ class Herd:
                 leg_point=np.zeros((most + 1, 3)),
                 route=make_route_scratch(),
                 company=self._company,
+                node=np.zeros((len(self.tables.girdles.place), 4)),
+                more=np.zeros((len(self.tables.girdles.place), 4)),
+                wish=np.zeros(len(self.tables.girdles.place)),
                 neighbour=np.zeros(HEEDED, np.int64),
                 neighbour_gap=np.zeros(HEEDED),
             )

@@ -11,9 +11,11 @@ from typing import Any, NamedTuple
 
 from polypod.gait.follow import GaitLadder
 from polypod.morphology.girdles import Girdles
+from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import BodyTable, BoolArray, FloatArray, IntArray, LegTable
 from polypod.paths.curve import PathRow
 from polypod.routes.state import RouteState
+from polypod.spine.table import BendTable
 
 
 class JointTable(NamedTuple):
@@ -30,6 +32,8 @@ class HerdTables(NamedTuple):
     legs: LegTable
     ik: Any  # polypod.ik.table.IkTable
     girdles: Girdles
+    spine: SpineTable
+    bend: BendTable
     body: BodyTable
     joints: JointTable
     leg_length: float  # mean over legs, m: the unit of all tolerances
@@ -154,6 +158,26 @@ class HerdState(NamedTuple):
     sway: FloatArray  # [C] m: body centre to the left of its course
     swayed: FloatArray  # [C] m: what it would be in full
     sway_share: FloatArray  # [C, 3] smoothed share of that, its rate, low pass
+    segment_shift: FloatArray  # [C, S + T, 3] m: motion of the spine's segments, then the tail's,
+    segment_turn: FloatArray  # [C, S + T, 4] relative to the body frame; see polypod.spine.frames
+    spine_angle: FloatArray  # [C, S + T, 3] rad: yaw, pitch, roll against the segment behind, the
+    # first of the spine against the body, those of the tail against the one nearer its root
+    spine_base: FloatArray  # [C, 3] m, body frame: shift of where the spine begins
+    spine_wish: FloatArray  # [C, S + T, 3] both as they are to be at the end of the step
+    spine_base_wish: FloatArray  # [C, 3]
+    girdle_bend: FloatArray  # [C, G, 4, 3] a girdle against the body's axis, without what its gait
+    # adds: to the left and up, m, yaw (as a heading) and pitch (front up), rad; smoothed value,
+    # rate, low pass
+    girdle_was: FloatArray  # [C, G, 4, 3] the same as the step began
+    spine_share: FloatArray  # [C, 2, 3] how much the spine takes on of the track, which is nothing
+    # of who goes sideways, and of what the gait bends it by; smoothed
+    spine_struck: FloatArray  # [C, 2] rad and rad/s: the bend that pushes gave it, of the front
+    gaze: FloatArray  # [C, 3] rad: the head's yaw against the body's axis, smoothed
+    tail_sway: FloatArray  # [C, T, 2, 3] rad: yaw and pitch that have come so far down the tail
+    track: FloatArray  # [C, TRACK] rad: yaws of the way behind against the present heading
+    track_gone: FloatArray  # [C] m, how far behind the first of them is
+    track_from: FloatArray  # [C] rad: the heading against which they are
+    way_ahead: FloatArray  # [C, MOMENTS, 2] arc, m, and yaw of the way ahead
     joint_position: FloatArray  # [C, J, 3]
     joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
     foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it

@@ -133,6 +133,7 @@ class World:
         herd.state.position[:, 0] = points[:, 0]
         herd.state.position[:, 2] = points[:, 1]
         herd.state.heading[:] = herd.command.heading
+        herd.state.track_from[:] = herd.command.heading
         self.environment.load_ground(herd.state.position[:, [0, 2]], herd.sight(0.0))
         herd.state.seed[:] = self.seed
         chosen = self._gait(herd, gait)

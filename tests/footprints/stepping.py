@@ -74,8 +74,9 @@ def carry_hip(request):
     ahead.own[0] = MIDDLE
     for moment, share in enumerate(MOMENTS):
         hip = mix(request.hip_start, request.hip_touchdown, min(float(share), 1.0))
-        store_vec3(ahead.position[moment], hip - hip_rest)
-        store_quat(ahead.rotation[moment], turn)
+        for leg in range(len(ahead.ik.hip_rest)):
+            store_vec3(ahead.position[moment, leg], hip - hip_rest)
+            store_quat(ahead.rotation[moment, leg], turn)
 
 
 def plan(env, request, settings=SETTINGS):

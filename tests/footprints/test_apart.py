@@ -33,8 +33,9 @@ def standing(heading=0.0):
     turn = from_heading(heading)
     ahead.own[0], ahead.leg[0], ahead.others[0] = 3, 5, 1
     for moment in range(len(MOMENTS)):
-        store_vec3(ahead.position[moment], Vec3(1.0, 2.0, 3.0))
-        store_quat(ahead.rotation[moment], turn)
+        for leg in (3, 5):
+            store_vec3(ahead.position[moment, leg], Vec3(1.0, 2.0, 3.0))
+            store_quat(ahead.rotation[moment, leg], turn)
         sole = Vec3(1.0, 2.0, 3.0) + rotate(turn, load_vec3(legs.sole_stance[5]))
         store_vec3(ahead.sole[moment, 0], sole)
         store_vec3(ahead.effector[moment, 0], sole)

@@ -229,6 +229,52 @@ def quadruped(detached=False, markers=True, straight=False, girdle=False):
     return rig
 
 
+BACK = np.array(
+    [[0, 0.62, -0.44], [0, 0.66, -0.2], [0, 0.67, 0.0], [0, 0.66, 0.2], [0, 0.64, 0.46]]
+)
+
+
+def long_back(root=0, flat=False, head=True, tail=True, legs_on_root=False):
+    """A quadruped whose back has four joints, hung together in the file in one way or another.
+
+    Args:
+        root: of the four, which one all the others hang on: 0 the pelvis, 3 the chest.
+        flat: all joints of the trunk hang on a root on the ground instead, and so do the legs.
+        head: there are neck and head.
+        tail: there is a tail of two joints.
+        legs_on_root: all legs hang on the root joint, as in a flat rig.
+    """
+    rig = Rig().add("Root", None, (0, 0, 0))
+    order = [root, *range(root - 1, -1, -1), *range(root + 1, 4)]
+    for i in order:
+        parent = "Root" if flat or i == root else f"Spine{i + 1 if i < root else i - 1}"
+        begin, end = BACK[i], BACK[i + 1]
+        # A joint lies where it turns against the one that it hangs on.
+        place, tip = (end, begin) if i < root and not flat else (begin, end)
+        rig.add(f"Spine{i}", parent, place, tip=tip, width=0.08)
+    top, rump = ("Root", "Root") if flat else ("Spine3", "Spine0")
+    if head:
+        rig.add("Neck", top, BACK[4], tip=(0, 0.8, 0.6), width=0.05)
+        above = "Root" if flat else "Neck"
+        rig.add("Head", above, (0, 0.82, 0.65), box=((-0.06, 0.75, 0.6), (0.06, 0.9, 0.85)))
+        rig.add("Ear.L", above if flat else "Head", (0.05, 0.9, 0.7), tip=(0.06, 1.0, 0.7))
+        rig.add("Ear.R", above if flat else "Head", (-0.05, 0.9, 0.7), tip=(-0.06, 1.0, 0.7))
+    if tail:
+        rig.add("Tail1", rump, (0, 0.62, -0.5), tip=(0, 0.6, -0.7))
+        rig.add("Tail2", "Root" if flat else "Tail1", (0, 0.6, -0.7), tip=(0, 0.5, -0.9))
+    for end, z, trunk in (("Hind", -0.4, "Spine0"), ("Fore", 0.4, "Spine3")):
+        for side, x in (("L", 0.15), ("R", -0.15)):
+            bend = 0.12 if end == "Hind" else -0.12
+            hip, knee, ankle = (x, 0.6, z), (x, 0.32, z + bend), (x, 0.05, z)
+            above = "Root" if flat else f"Spine{root}" if legs_on_root else trunk
+            rig.add(f"{end}Girdle.{side}", above, (0.3 * x, 0.62, z), tip=hip)
+            rig.add(f"{end}Upper.{side}", f"{end}Girdle.{side}", hip, tip=knee, width=0.04)
+            rig.add(f"{end}Lower.{side}", f"{end}Upper.{side}", knee, tip=ankle, width=0.03)
+            paw = ((x - 0.04, 0.0, z - 0.03), (x + 0.04, 0.08, z + 0.11))
+            rig.add(f"{end}Foot.{side}", f"{end}Lower.{side}", ankle, box=paw)
+    return rig
+
+
 def arthropod(rows=3, marks=True, feet=False):
     """A bug 0.3 m tall facing +Z: legs of three sections that end in points."""
     rig = Rig()

@@ -94,7 +94,7 @@ WRONG = {
     'rig = "authored.glb"\n[limit.Foot]\nbend = [1, -1]': r"Foot.bend: must be two angles",
     'rig = "authored.glb"\n[limit.Foot]\nbend = [-90, 90]': r"Foot.bend: must be two angles",
     'rig = "authored.glb"\n[limit.Foot]\ntwist = 45': r"Foot.twist: must be radians",
-    'rig = "authored.glb"\n[limit.Head]\ntwist = 0.4': r'limit."Head": is no joint that turns',
+    'rig = "authored.glb"\n[limit.Root]\ntwist = 0.4': r'limit."Root": is no joint that turns',
     'rig = "authored.glb"\n[limit.Knee]\ntwist = 0.4': r'no node named "Knee"',
     'rig = "authored.glb"\n[limit."HindUpper.L"]\nbend = [0, 1]': r"bend: is not for the first",
     'rig = "authored.glb"\n[limit."HindLower.L"]\ntwist = 0.4': r"twist: is not for this joint",

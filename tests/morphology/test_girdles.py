@@ -13,8 +13,8 @@ from polypod.morphology.types import LegTable
 
 @pytest.mark.parametrize(
     ("rig", "count"),
-    [("biped", 1), ("wolf", 2), ("lizard", 2), ("pentapod", 1), ("ant", 1), ("crab", 1),
-     ("spider", 1), ("centipede", 20)],
+    [("biped", 1), ("wolf", 2), ("lizard", 2), ("centaur", 3), ("pentapod", 1), ("ant", 1),
+     ("crab", 1), ("spider", 1), ("centipede", 20)],
 )  # fmt: skip
 def test_girdles_of_the_built_in_creatures(rig: str, count: int) -> None:
     morphology = load_rig(rig)

@@ -11,6 +11,7 @@ from functools import cache
 
 import numpy as np
 
+from polypod.morphology.spine import rigid_trunk
 from polypod.morphology.types import BodyTable, LegTable, Morphology, RigSource
 from polypod.report.record import Recorder, Recording
 from polypod.rigs.author import Joint, Material, SkinnedSurface, author_glb
@@ -125,6 +126,7 @@ def morphology() -> Morphology:
         foot_node=rows[:, 1].copy(),
         foot_offset=REST_SOLES - point_rest[:, 1],
         spine=(),
+        segments=rigid_trunk(6, len(joints), 1),
         body=BodyTable(0.06, HEIGHT, np.array([0.1, 0.06, 0.25]), np.zeros(3)),
         guesses=(),
     )

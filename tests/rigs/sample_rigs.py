@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from polypod.morphology.spine import rigid_trunk
 from polypod.morphology.types import BodyTable, LegTable, Morphology, RigSource
 from polypod.report.record import Recording
 from polypod.rigs.gltf import GltfDocument
@@ -218,6 +219,7 @@ def morphology_of(document: GltfDocument, metres_per_unit: float = 0.01) -> Morp
         none,
         none3,
         (),
+        rigid_trunk(0, len(order), 0),
         BodyTable(0.1, 0.2, np.ones(3), np.zeros(3)),
         (),
     )

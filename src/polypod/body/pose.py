@@ -12,14 +12,14 @@ from polypod.body.reach import effector_world
 from polypod.body.smoothing import follow
 from polypod.body.support import FeetPlane, body_rotation
 from polypod.compute import kernel
-from polypod.controller.rest import rest_offset
+from polypod.controller.rest import hip_offset, rest_ahead
 from polypod.controller.roll import rise_at_lift
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.stride import stance_centre
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface
 from polypod.math.intervals import wrap_phase
-from polypod.math.quat import Quat, load_quat, rotate
+from polypod.math.quat import Quat, load_quat
 from polypod.math.vec3 import Vec3, load_vec3
 
 # How far the body sinks, preferred heights: for legs that lag, which looks worse than waiting for
@@ -44,14 +44,15 @@ LATE = 0.1
 
 @kernel
 def highest_over(
-    k: int, place: Vec3, foot_turn: Quat, bend: float, pose: PlanPose, turn: Quat, tables: Any
-) -> float:
+    c: int, k: int, place: Vec3, foot_turn: Quat, bend: float, pose: PlanPose, turn: Quat,
+    state: Any, tables: Any,
+) -> float:  # fmt: skip
     """Return the greatest height of the body at which a leg reaches a place for its sole.
 
-    `bend` is how far its heel is up there, rad.
+    `turn` is the body's rotation at the pose, `bend` how far the foot's heel is up there, rad.
     """
     ankle = effector_world(k, tables, place, foot_turn, bend)
-    hip = rotate(turn, load_vec3(tables.legs.point_rest[k, 0]))
+    hip = hip_offset(c, k, turn, pose, state, tables)
     reach = 0.5 * (tables.ik.comfortable[k] + tables.ik.longest[k])
     dx = pose.x + hip.x - ankle.x
     dz = pose.z + hip.z - ankle.z
@@ -82,9 +83,10 @@ def highest(
             place = place - Vec3(x, 0.0, math.cos(course) * way + push_z)
         elif state.waiting[c, k] > 0.0:
             wish = load_vec3(state.wish[c, k])
-            deep = min(deep, highest_over(k, wish, foot_turn, 0.0, pose, turn, tables) - base)
+            over = highest_over(c, k, wish, foot_turn, 0.0, pose, turn, state, tables)
+            deep = min(deep, over - base)
         bend = 0.0 if state.swinging[c, k] else state.foot_bend[c, k, 0]
-        over = highest_over(k, place, foot_turn, bend, pose, turn, tables)
+        over = highest_over(c, k, place, foot_turn, bend, pose, turn, state, tables)
         shallow = min(shallow, over - base)
     height = command.body_height[c]
     return min(max(shallow, -SHALLOW * height), max(deep, -DEEP * height))
@@ -131,7 +133,7 @@ def highest_soon(
             foot_turn = load_quat(state.foot_rotation[c, k])
             # Where its leg is stretched, its heel has risen.
             bend = rise_at_lift(c, k, state, command, tables)
-            over = highest_over(k, place, foot_turn, bend, later, turn, tables)
+            over = highest_over(c, k, place, foot_turn, bend, later, turn, state, tables)
             most = min(most, over - base - rise)
     return max(most, -SHALLOW * command.body_height[c])
 
@@ -156,12 +158,12 @@ def highest_ahead(
         centre = stance_centre(c, k, way * math.cos(command.travel[c]), state, tables)
         half = 0.5 * way
         push_x, push_z = moved_by_push(there.aside, tables.recovery, 0.5 * stance)
-        offset = rest_offset(c, k, there.heading, state, tables, settings)
+        offset = rest_ahead(c, k, there, state, tables, settings)
         x = there.x + offset.x + math.sin(course) * half + math.sin(there.heading) * centre + push_x
         z = there.z + offset.z + math.cos(course) * half + math.cos(there.heading) * centre + push_z
         y, _ = surface(env, x, z)
         foot_turn = load_quat(state.foot_rotation_target[c, k])
-        over = highest_over(k, Vec3(x, y, z), foot_turn, 0.0, there, turn, tables)
+        over = highest_over(c, k, Vec3(x, y, z), foot_turn, 0.0, there, turn, state, tables)
         most = min(most, over - base - rise)
     return max(most, -DEEP * command.body_height[c])
 

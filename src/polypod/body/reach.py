@@ -8,6 +8,7 @@ from polypod.compute import kernel
 from polypod.ik.reach import reach_shift
 from polypod.math.quat import Quat, from_axis_angle, load_quat, rotate, unrotate
 from polypod.math.vec3 import Vec3, length, load_vec3
+from polypod.spine.frames import leg_frame
 
 PASSES = 16
 # A target this near to the edge of the reach, in leg lengths, counts as inside.
@@ -44,15 +45,26 @@ def effector_world(k: int, tables: Any, sole_world: Vec3, foot_turn: Quat, bend:
 
 
 @kernel
-def foot_shift(
+def shift_in_frame(
     k: int, tables: Any, sole_world: Vec3, foot_turn: Quat, bend: float, position: Vec3, turn: Quat
 ) -> Vec3:
     """Return the least shift of a foot, world, that brings it within its leg's reach.
 
-    `position` and `turn` are the body's pose; the shift is zero where the leg reaches the sole.
+    `position` and `turn` are the frame in which its leg hangs; the shift is zero where the leg
+    reaches the sole.
     """
     target = effector_world(k, tables, sole_world, foot_turn, bend)
     return rotate(turn, reach_shift(tables.ik, k, unrotate(turn, target - position)))
+
+
+@kernel
+def foot_shift(
+    c: int, k: int, sole_world: Vec3, foot_turn: Quat, bend: float, state: Any, tables: Any,
+    position: Vec3, turn: Quat,
+) -> Vec3:  # fmt: skip
+    """Return `shift_in_frame` of a body at a pose whose spine is bent as it is now."""
+    position, turn = leg_frame(c, k, position, turn, state, tables)
+    return shift_in_frame(k, tables, sole_world, foot_turn, bend, position, turn)
 
 
 @kernel
@@ -62,7 +74,7 @@ def shift_as_it_is(
     """Return `foot_shift` of a foot that is turned and rolled as it is now, its sole at a place."""
     foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
     bend = state.foot_bend[c, k, 0]
-    return foot_shift(k, tables, sole_world, foot_turn, bend, position, turn)
+    return foot_shift(c, k, sole_world, foot_turn, bend, state, tables, position, turn)
 
 
 @kernel
@@ -93,7 +105,8 @@ def body_within_reach(
                 continue
             sole = load_vec3(scratch.sole[k])
             foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
-            shift = foot_shift(k, tables, sole, foot_turn, scratch.bend[k, 0], position, turn)
+            bend = scratch.bend[k, 0]
+            shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
             size = length(shift)
             if attempt == 0:
                 state.pull[c, k] = size

@@ -15,6 +15,7 @@ from polypod.ik.foot import foot_rotation
 from polypod.ik.solve import solve_leg
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, unrotate
 from polypod.math.vec3 import Vec3, distance, load_vec3
+from polypod.spine.frames import leg_frame_at
 
 # Halvings of the way from level to flat, where flat is too much for ankle or leg.
 HALVINGS = 7
@@ -90,15 +91,15 @@ def ground_normal_under(env: Any, foot: FootShape, sole: Vec3, ahead: float) -> 
 
 @kernel
 def ankle_turn(
-    k: int, sole: Vec3, foot_turn: Quat, hip: Vec3, body_turn: Quat, tables: Any, scratch: Any
+    k: int, sole: Vec3, foot_turn: Quat, hip: Vec3, leg_turn: Quat, tables: Any, scratch: Any
 ) -> float:
     """Return how far an ankle is turned away from the stance when its foot stands so, rad."""
     ik = tables.ik
     ankle = effector_world(k, tables, sole, foot_turn, 0.0)
-    target = load_vec3(ik.hip_rest[k]) + unrotate(body_turn, ankle - hip)
+    target = load_vec3(ik.hip_rest[k]) + unrotate(leg_turn, ankle - hip)
     solve_leg(ik, k, target, scratch.leg_rotation, scratch.leg_point)
     shank = load_quat(scratch.leg_rotation[ik.joint_count[k] - 1])
-    foot = conjugate(body_turn) * foot_turn
+    foot = conjugate(leg_turn) * foot_turn
     return angle_of(conjugate(shank) * foot * load_quat(ik.shank_stance[k]))
 
 
@@ -112,10 +113,12 @@ def demand(
     Rad, rad, and m from hip to ankle at touchdown.
     """
     turn = body_rotation(landing.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    _, turn = leg_frame_at(c, k, sole, turn, landing, state, tables)
     hip = hip_at(c, k, landing, state, tables)
     first = ankle_turn(k, sole, foot_turn, hip, turn, tables, scratch)
     far = distance(effector_world(k, tables, sole, foot_turn, 0.0), hip)
     turn = body_rotation(middle.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
+    _, turn = leg_frame_at(c, k, sole, turn, middle, state, tables)
     hip = hip_at(c, k, middle, state, tables)
     return Vec3(first, ankle_turn(k, sole, foot_turn, hip, turn, tables, scratch), far)
 

@@ -10,7 +10,7 @@ import math
 from typing import Any
 
 from polypod.body.push import Deflection, hold_back, is_thrown, load_deflection
-from polypod.body.reach import shift_as_it_is
+from polypod.body.reach import pitched, shift_as_it_is, shift_in_frame
 from polypod.body.support import body_rotation
 from polypod.compute import kernel
 from polypod.controller.lift import feet_needed
@@ -20,6 +20,7 @@ from polypod.gait.needle import swing_progress
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import load_quat
 from polypod.math.vec3 import Vec3, length, load_vec3
+from polypod.spine.frames import leg_frame_at
 
 # Standing legs are looked at in so many moments until their turn comes or the body is caught.
 MOMENTS = 3
@@ -94,7 +95,10 @@ def overreach(
         then = predict(pose, horizon * i / MOMENTS, c, state, command, tables, settings)
         place = Vec3(then.x, body_height_at(c, then.x, then.z, state), then.z)
         turn = body_rotation(then.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-        shift = shift_as_it_is(c, k, sole, state, tables, place, turn)
+        place, turn = leg_frame_at(c, k, place, turn, then, state, tables)
+        foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
+        bend = state.foot_bend[c, k, 0]
+        shift = shift_in_frame(k, tables, sole, foot_turn, bend, place, turn)
         most = max(most, length(shift))
     return most
 

@@ -10,7 +10,7 @@ from polypod.compute import kernel
 from polypod.controller.align import aligned_turn, ground_normal_under
 from polypod.controller.errand import Errand
 from polypod.controller.others import gather_other_legs, look_ahead
-from polypod.controller.rest import body_height_at, hip_at, level_height, rest_offset
+from polypod.controller.rest import body_height_at, hip_at, level_height, rest_ahead
 from polypod.controller.roll import rise_at_lift
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.stride import stance_centre
@@ -51,7 +51,7 @@ def preferred_footprint(
     """
     stance = stance_seconds(c, k, state)
     middle = predict(pose, touchdown + 0.5 * stance, c, state, command, tables, settings)
-    offset = rest_offset(c, k, middle.heading, state, tables, settings)
+    offset = rest_ahead(c, k, middle, state, tables, settings)
     way = middle.speed * math.cos(command.travel[c]) * stance
     ahead = stance_centre(c, k, way, state, tables)
     x = middle.x + offset.x + math.sin(middle.heading) * ahead

@@ -69,6 +69,7 @@ def carry_feet(c: int, dt: float, state: Any, env: Any) -> None:
         if turn != 0.0:
             turn = turn / standing
             state.heading[c] = wrapped(state.heading[c] + turn)
+            state.track_from[c] = wrapped(state.track_from[c] + turn)
             store_quat(state.rotation[c], from_heading(turn) * load_quat(state.rotation[c]))
 
 

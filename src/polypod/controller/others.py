@@ -10,15 +10,16 @@ from polypod.body.reach import effector_world, may_drag
 from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
-from polypod.controller.rest import body_height_at, rest_offset
+from polypod.controller.rest import body_height_at, rest_ahead
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import foot_along, swing_time_left
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
 from polypod.math.intervals import wrap_phase
-from polypod.math.quat import load_quat, store_quat
+from polypod.math.quat import Quat, load_quat, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, mix, store_vec3
 from polypod.paths.apart import MOMENTS
+from polypod.spine.frames import leg_frame_at
 
 # Who shortens its strides by so much of what it may does not count on feet that have yet to lift.
 CAREFUL = 0.25
@@ -71,7 +72,7 @@ def foot_later(
     if seconds <= wait:
         return here
     share = min((seconds - wait) * rate / extent, 1.0)
-    offset = rest_offset(c, k, then.heading, state, tables, settings)
+    offset = rest_ahead(c, k, then, state, tables, settings)
     half = 0.5 * (1.0 - extent) / rate
     way = half * then.speed
     course = then.heading - then.aside.heading + command.travel[c]
@@ -123,6 +124,17 @@ def gather_other_legs(
 
 
 @kernel
+def carry_leg(
+    c: int, leg: int, moment: int, position: Vec3, turn: Quat, then: PlanPose, state: Any,
+    tables: Any, ahead: Any,
+) -> None:  # fmt: skip
+    """Write the frame in which a leg will hang at a moment, with the body at a pose."""
+    origin, turned = leg_frame_at(c, leg, position, turn, then, state, tables)
+    store_vec3(ahead.position[moment, leg], origin)
+    store_quat(ahead.rotation[moment, leg], turned)
+
+
+@kernel
 def look_ahead(
     c: int, dt: float, pose: PlanPose, errand: Errand, stance: float, state: Any, command: Any,
     tables: Any, settings: Any, env: Any, plan: Any,
@@ -139,11 +151,11 @@ def look_ahead(
         seconds = min(share, 1.0) * errand.seconds + max(share - 1.0, 0.0) * stance
         then = predict(pose, max(seconds - dt, 0.0), c, state, command, tables, settings)
         place = Vec3(then.x, body_height_at(c, then.x, then.z, state), then.z)
-        store_vec3(ahead.position[moment], place)
         turn = body_rotation(then.heading, state.tilt[c, 0, 0], state.tilt[c, 1, 0])
-        store_quat(ahead.rotation[moment], turn)
+        carry_leg(c, ahead.own[0], moment, place, turn, then, state, tables, ahead)
         for other in range(ahead.others[0]):
             leg = ahead.leg[other]
+            carry_leg(c, leg, moment, place, turn, then, state, tables, ahead)
             sole = foot_later(c, leg, seconds, then, command, state, tables, settings, env)
             turned = load_quat(state.foot_rotation[c, leg])
             store_vec3(ahead.sole[moment, other], sole)

@@ -26,6 +26,8 @@ from polypod.environment.table import is_forbidden, penetration_at, surface
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 from polypod.morphology.roll import FLAT
+from polypod.spine.chain import keep_bend, place_segments
+from polypod.spine.yielding import yields
 
 # Shares of a frame's advance that are tried in turn; 0, the pose before, is always possible.
 ADVANCES = (1.0, 0.75, 0.5, 0.3, 0.15, 0.05, 0.0)
@@ -122,7 +124,8 @@ def may_go(
     foot_turn = pitched(turn, scratch.pitch[k, 0])
     position = load_vec3(state.position[c])
     body_turn = load_quat(state.rotation[c])
-    shift = foot_shift(k, tables, sole, foot_turn, scratch.bend[k, 0], position, body_turn)
+    bend = scratch.bend[k, 0]
+    shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, body_turn)
     return length(shift) <= DRAWN * (EARLY_PULL if progress < EARLY else LATE_PULL) * unit
 
 
@@ -177,7 +180,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         sole = load_vec3(scratch.sole[k])
         foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
         bend = scratch.bend[k, 0]
-        shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+        shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
         if length(shift) <= 2.0 * tolerance or (state.swinging[c, k] and may_drag(c, state)):
             continue
         if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
@@ -201,7 +204,7 @@ def dragged(c: int, k: int, sole: Vec3, state: Any, tables: Any, scratch: Any) -
     foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
     bend = scratch.bend[k, 0]
     turn = load_quat(state.rotation[c])
-    shift = foot_shift(k, tables, sole, foot_turn, bend, position, turn)
+    shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
     if length(shift) <= 2.0 * TOLERANCE * tables.leg_length:
         return sole
     return sole + shift
@@ -230,7 +233,10 @@ def settle_body(
     turn = slerp(turn_before, turn, min(1.0, FASTEST_TILT / pendulum * dt / max(angle, 1e-9)))
     wished = sideways(Vec3(pose.x, height, pose.z), pose.heading, sway)
     wish_feet(c, dt, state, command, tables, env, scratch)
+    asked_for = wished
     wished = body_within_reach(c, state, tables, scratch, wished, turn)
+    if yields(c, wished, turn, state, tables, scratch):
+        wished = body_within_reach(c, state, tables, scratch, asked_for, turn)
     heading_before = state.heading[c]
     turning = wrapped(pose.heading - heading_before)
     near = list_neighbours(c, tables.leg_length, state, scratch) if state.crowded[c] else 0
@@ -239,6 +245,8 @@ def settle_body(
         turned = slerp(turn_before, turn, share)
         heading = heading_before + share * turning
         apart = True
+        if share < 1.0:
+            place_segments(c, share, state, tables)
         if near > 0 and share > 0.0:
             x, z, apart = apart_from(c, near, position.x, position.z, heading, state, scratch)
             position = Vec3(x, position.y, z)
@@ -252,6 +260,7 @@ def settle_body(
                     break
         if fits or share == 0.0:
             state.held[c] = share
+            keep_bend(c, share, state, tables)
             store_vec3(state.position[c], position)
             store_quat(state.rotation[c], turned)
             state.heading[c] = wrapped(heading)

@@ -32,6 +32,10 @@ HELD_BACK = 0.5
 UNHURRIED = 0.93
 HURRY = 1.2
 MOST_HURRY = 0.5
+# Who goes faster than this, leg lengths a pendulum time, walks on in a turn if its spine bends.
+WALKING = 0.03
+# And turns at this share of its turn rate at least, however slowly it gets on.
+SLOWEST_TURN = 0.05
 # A usual gait cycle, leg pendulum times.
 CYCLE = 2.5
 
@@ -94,11 +98,14 @@ def steer(
     waypoint = pose.waypoint
     corner = pose.corner
     stop = math.inf
+    free = math.inf
     if command.waypoint_count[c] > 0:
         aim = next_aim(on_x, on_z, int(pose.waypoint), int(pose.corner), c, state, command, tables)
         waypoint = float(aim.waypoint)
         corner = float(aim.corner)
         away = math.hypot(aim.to_x, aim.to_z)
+        # Between corners there is no room to be sure of.
+        free = away if aim.corner == aim.corners else 0.0
         heading_asked = on_heading
         if not aim.stops or away > HEADING_RADIUS * tables.leg_length:
             heading_asked = math.atan2(aim.to_x, aim.to_z) - travel
@@ -118,9 +125,17 @@ def steer(
         speed_asked = min(speed_asked, math.sqrt(acceleration * left), left / dt)
     error = wrapped(heading_asked + pose.detour - on_heading)
     # Who must turn far turns first: full speed would circle round the place it is to go to.
-    speed_asked *= min(1.0, max(0.1, 1.4 * math.cos(error)))
+    share = min(1.0, max(0.1, 1.4 * math.cos(error)))
     response = settings.turn_response * pendulum
     limit = settings.turn_rate / pendulum
+    curl = min(settings.spine, 1.0) * tables.bend.tightest
+    if curl > 0.0 and free >= 2.0 * abs(math.sin(min(abs(error), 0.5 * math.pi))) / curl:
+        # Who bends walks on along an arc that its spine can lie on, and turns on the spot only
+        # where it stands.
+        share = max(share, min(1.0, limit / (curl * max(speed_asked, 1e-9))))
+        walking = speed_asked * pendulum / (WALKING * tables.leg_length)
+        limit = min(limit, max(curl * pose.speed, limit * max(1.0 - walking, SLOWEST_TURN)))
+    speed_asked *= share
     rate_asked = min(limit, max(-limit, error / response))
     turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (
         1.0 - math.exp(-4.0 * dt / response)

@@ -9,14 +9,19 @@ from polypod.compute import kernel
 from polypod.ik.solve import solve_leg
 from polypod.math.quat import Quat, load_quat, rotate, store_quat, unrotate
 from polypod.math.vec3 import Vec3, distance, load_vec3, store_vec3
+from polypod.spine.frames import leg_frame, segment_frame
 
 
 @kernel
 def pose_leg_of(
     c: int, k: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratch: Any
 ) -> None:
-    """Pose one leg so that its sole is where it was planned; note where it really is."""
+    """Pose one leg so that its sole is where it was planned; note where it really is.
+
+    `position` and `turn` are the body's pose.
+    """
     legs = tables.legs
+    position, turn = leg_frame(c, k, position, turn, state, tables)
     foot_turn = pitched(load_quat(state.foot_rotation[c, k]), state.foot_pitch[c, k, 0])
     bend = state.foot_bend[c, k, 0]
     sole = load_vec3(state.foot[c, k])
@@ -61,9 +66,11 @@ def pose_joints(c: int, state: Any, tables: Any, scratch: Any) -> None:
             continue
         parent = joints.parent[j]
         place = load_vec3(joints.rest[j])
-        if parent < 0:
-            store_vec3(state.joint_position[c, j], position + rotate(turn, place))
-            store_quat(state.joint_rotation[c, j], turn)
+        segment = tables.spine.of_joint[j]
+        if segment >= 0 or parent < 0:
+            origin, turned = segment_frame(c, segment, position, turn, state)
+            store_vec3(state.joint_position[c, j], origin + rotate(turned, place))
+            store_quat(state.joint_rotation[c, j], turned)
             continue
         parent_turn = load_quat(state.joint_rotation[c, parent])
         arm = place - load_vec3(joints.rest[parent])

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 DEFAULT_RIG = "spider"
 RIG_HELP = (
     "a .glb or .gltf file, a creature file (.toml), or a built-in creature: spider, ant, crab, "
-    "pentapod, centipede, wolf, lizard, biped"
+    "pentapod, centipede, wolf, lizard, centaur, biped"
 )
 # Options of a rig, as they are typed, by the name under which they are read.
 RIG_OPTIONS = {

@@ -4,6 +4,7 @@
 rig = "spider.glb"               # beside this file, or the name of a built-in creature
 leg = ["Hip.L:Foot.L", "Hip.R:Foot.R"]   # omitted: detected
 spine = ["Pelvis", "Chest", "Head"]      # from back to head; omitted: detected
+tail = ["Tail1", "Tail2"]                # from the trunk to the tip; omitted: detected
 forward = "+z"                   # +z, -z, +x or -x; omitted: guessed
 height = 1.2                     # m, ground to the top of the skin at rest; omitted: units are m
 body_height = 0.5                # m, preferred height of the body centre above the soles
@@ -23,6 +24,10 @@ bend = [-0.3, 2.0]               # about the rest bend
 flexion = 1.2                    # either way, from the rest
 sideways = 0.5
 twist = 0.4
+[limit."Spine1"]                 # a joint of spine or tail: either way, against the one before it
+yaw = 0.2
+pitch = 0.1
+roll = 0.1
 ```
 
 Unknown keys are errors.
@@ -39,10 +44,14 @@ from typing import Any
 
 from polypod.errors import RigError, choices
 
-KEYS = ("rig", "leg", "spine", "forward", "height", "body_height", "body", "foot", "limit")
+KEYS = (
+    "rig", "leg", "spine", "tail", "forward", "height", "body_height", "body", "foot", "limit",
+)  # fmt: skip
 BODY_KEYS = ("centre", "thickness", "half_size")
 FOOT_KEYS = ("half_size", "weight")
-LIMIT_KEYS = ("bend", "flexion", "sideways", "twist")
+HIP_KEYS = ("flexion", "sideways", "twist")
+SPINE_KEYS = ("yaw", "pitch", "roll")
+LIMIT_KEYS = ("bend", *HIP_KEYS, *SPINE_KEYS)
 
 
 @dataclass(frozen=True)
@@ -53,6 +62,7 @@ class Creature:
     rig: str
     legs: tuple[str, ...] | None = None
     spine: tuple[str, ...] | None = None
+    tail: tuple[str, ...] | None = None
     forward: str | None = None
     height: float | None = None
     body_height: float | None = None
@@ -91,6 +101,7 @@ def read_creature(path: Path) -> Creature:
         rig=str(beside) if beside.is_file() else rig,
         legs=table.texts("leg"),
         spine=table.texts("spine"),
+        tail=table.texts("tail"),
         forward=table.text("forward"),
         height=table.number("height", above=0.0),
         body_height=table.number("body_height", above=0.0),
@@ -118,11 +129,14 @@ def _limits(entry: _Table) -> dict[str, tuple[float, ...]]:
         if not -math.pi <= bend[0] < bend[1] <= math.pi:
             raise entry.error("bend", "must be two angles, the least first, within -pi and pi")
         found["bend"] = bend
-    for key in ("flexion", "sideways", "twist"):
-        angle = entry.number(key, above=0.0)
+    for key in (*HIP_KEYS, *SPINE_KEYS):
+        angle = entry.number(key)
         if angle is not None:
-            if angle > math.pi:
-                raise entry.error(key, "must be radians, at most pi")
+            # A spine may be stiff at a joint; a leg that cannot turn at all cannot walk.
+            stiff = key in SPINE_KEYS and angle == 0.0
+            if not (stiff or 0.0 < angle <= math.pi):
+                least = "0 or more" if key in SPINE_KEYS else "above 0"
+                raise entry.error(key, f"must be radians, {least} and at most pi")
             found[key] = (angle,)
     return found
 

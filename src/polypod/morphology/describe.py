@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from polypod.errors import choices
 from polypod.morphology.girdles import find_girdles
 from polypod.morphology.roll import FLAT, HEEL_FIRST
-from polypod.morphology.types import Morphology
+from polypod.morphology.types import FloatArray, Morphology
 
 SIDES = {1: "left", 0: "middle", -1: "right"}
 
@@ -98,9 +99,56 @@ def _limits(morphology: Morphology) -> str:
 
 
 def _spine(morphology: Morphology) -> str:
-    if not morphology.spine:
-        return "spine: none, the trunk moves as one piece; --spine J,J,... names one"
-    return "spine: " + " > ".join(joint_label(morphology, row) for row in morphology.spine)
+    table, named = (
+        morphology.segments,
+        " > ".join(joint_label(morphology, row) for row in morphology.spine),
+    )
+    if not len(table.joint):
+        rigid = f"spine: {named or 'none'}; the trunk moves as one piece"
+        return rigid if named else f"{rigid}; --spine J,J,... names one"
+    lines = [
+        f"spine: {named}",
+        "  segments, from back to head (length in m; yaw, pitch, roll either way)",
+    ]
+    for s, row in enumerate(table.joint):
+        turn = table.limit[s] if s else None
+        lines.append(
+            f"  {_segment(morphology, int(row), table.bone_length[s], turn)}{_parts(morphology, s)}"
+        )
+    for t, row in enumerate(table.tail_joint):
+        said = _segment(morphology, int(row), table.tail_length[t], table.tail_limit[t])
+        lines.append(f"  {said}, tail{_riders(morphology, len(table.joint) + t)}")
+    return "\n".join(lines)
+
+
+def _segment(morphology: Morphology, row: int, length: float, limit: FloatArray | None) -> str:
+    said = f"{joint_label(morphology, row)}: {length:.4g}"
+    if limit is not None:
+        said += ", turns " + " ".join(f"{angle:.0f}" for angle in np.degrees(limit)) + " degrees"
+    return said
+
+
+def _parts(morphology: Morphology, segment: int) -> str:
+    """Say what part of the body a segment of the spine is, and what hangs and rides on it."""
+    table = morphology.segments
+    part = ", head" if segment == table.head else ", neck" if segment >= table.neck else ""
+    feet = [
+        foot for foot, s in zip(morphology.foot_name, table.of_leg, strict=True) if s == segment
+    ]
+    legs = f", carries the legs to {', '.join(feet)}" if feet else ""
+    return f"{part}{legs}{_riders(morphology, segment)}"
+
+
+def _riders(morphology: Morphology, segment: int) -> str:
+    """Name the joints that ride on a segment, but not those below them."""
+    table, parents = morphology.segments, morphology.joint_parent
+    own = {-1, *table.joint.tolist(), *table.tail_joint.tolist()}
+    riders = [
+        joint_label(morphology, row)
+        for row in np.flatnonzero(table.of_joint == segment).tolist()
+        if row not in own and (parents[row] in own or table.of_joint[parents[row]] < 0)
+    ]
+    return f"; with it {choices(riders)}" if riders else ""
 
 
 def _girdles(morphology: Morphology) -> str:

@@ -12,20 +12,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from polypod.errors import RigError, SettingError, choices
+from polypod.morphology.backbone import Middle
 from polypod.morphology.builtin import NAMES as BUILT_IN
 from polypod.morphology.builtin import build as build_builtin
+from polypod.morphology.chains import spine_and_tail
 from polypod.morphology.creature import Creature, read_creature
 from polypod.morphology.detect import detect_legs
 from polypod.morphology.facing import turn_to_face
+from polypod.morphology.girdles import find_girdles
 from polypod.morphology.layout import arrange, back_to_front
 from polypod.morphology.limb import Limb, build_limb
-from polypod.morphology.names import find_node, split_leg
+from polypod.morphology.names import split_leg
 from polypod.morphology.overrides import override_feet, override_limits
 from polypod.morphology.roll import find_rolls
+from polypod.morphology.segments import Trunk, build_spine
 from polypod.morphology.skeleton import Skeleton, read_skeleton
 from polypod.morphology.stance import stand
 from polypod.morphology.table import joint_rows, leg_table, stand_upright
-from polypod.morphology.trunk import body_centre, find_spine, measure_trunk
+from polypod.morphology.trunk import body_centre, measure_trunk
 from polypod.morphology.types import BodyTable, Morphology, RigSource
 from polypod.rigs.gltf import GltfDocument
 
@@ -69,6 +73,7 @@ def load_rig(
         SettingError: an argument is out of its range.
     """
     creature = _ask(rig, legs, spine, forward, height, body_height, weights)
+    named = creature.spine is not None
     document, creature = _open(creature)
     file_skeleton = read_skeleton(document)
     turn, _, facing_guess = turn_to_face(file_skeleton, creature.forward)
@@ -84,7 +89,7 @@ def load_rig(
         guesses.append(
             f"its file units are metres, so it is {size:.4g} m tall; --height says otherwise"
         )
-    morphology = _assemble(skeleton, to_frame, limbs, creature, guesses)
+    morphology = _assemble(skeleton, to_frame, limbs, creature, named, guesses)
     return override_limits(override_feet(morphology, skeleton, creature), skeleton, creature)
 
 
@@ -209,9 +214,10 @@ def _assemble(
     to_frame: FloatArray,
     limbs: list[Limb],
     creature: Creature,
+    named: bool,
     guesses: list[str],
 ) -> Morphology:
-    """Put stance, trunk, spine and tables together."""
+    """Put stance, trunk, spine and tables together; `named`: the user says what the spine is."""
     hip, sole = _hips_and_soles(skeleton, limbs)
     layout = arrange(hip, sole)
     centre = body_centre(hip) if creature.centre is None else np.array(creature.centre)
@@ -220,13 +226,18 @@ def _assemble(
     trunk = measure_trunk(skeleton, limbs, hip, centre)
     body_height = float(centre[1] - stance.sole[0, 1])
     rows, parents = joint_rows(skeleton, limbs)
-    row_of = {node: row for row, node in enumerate(rows)}
-    spine, spine_guess = _spine(skeleton, limbs, hip, creature, row_of)
     body_from_file = to_frame.copy()
     body_from_file[:3, 3] -= centre
     upright = stand_upright(skeleton, limbs, stance.sole)
     rolls = find_rolls(skeleton, limbs, upright, layout)
     legs = leg_table(skeleton, limbs, rolls, layout, stance.sole, rows, centre)
+    girdles = find_girdles(legs)
+    chains = spine_and_tail(Middle(skeleton, limbs, hip), creature, rows, len(girdles.place))
+    # P2's model moves girdles against each other: on a single one a spine bends if a user says so.
+    bends = named or len(girdles.place) > 1
+    segments, seat_guess = build_spine(
+        Trunk(skeleton, centre, rows, parents, legs, girdles), chains if bends else None
+    )
     nodes = [
         roll.toe_joint if roll.toe_joint >= 0 else limb.sole_node
         for limb, roll in zip(limbs, rolls, strict=True)
@@ -242,7 +253,8 @@ def _assemble(
         foot_name=tuple(skeleton.label(limb.foot) for limb in limbs),
         foot_node=np.array(nodes, np.int64),
         foot_offset=_in_nodes(skeleton, to_frame, np.array(nodes), legs.sole_rest + centre),
-        spine=spine,
+        spine=tuple(rows.index(node) for node in chains.spine),
+        segments=segments,
         body=BodyTable(
             thickness=creature.thickness or min(trunk.thickness, 0.9 * body_height),
             height=body_height,
@@ -251,7 +263,7 @@ def _assemble(
             else np.array(creature.half_size),
             box_centre=trunk.box_centre - centre,
         ),
-        guesses=(*guesses, *stance.guesses, *spine_guess),
+        guesses=(*guesses, *stance.guesses, *chains.guesses, *seat_guess),
     )
 
 
@@ -262,36 +274,3 @@ def _in_nodes(
     node_to_frame = to_frame @ skeleton.rest_file[nodes]
     inverse = np.linalg.inv(node_to_frame)
     return np.asarray((inverse[:, :3, :3] @ place[:, :, None])[:, :, 0] + inverse[:, :3, 3])
-
-
-def _spine(
-    skeleton: Skeleton,
-    limbs: list[Limb],
-    hip: FloatArray,
-    creature: Creature,
-    row_of: dict[int, int],
-) -> tuple[tuple[int, ...], list[str]]:
-    """Return the spine's rows, and a guess if it was detected."""
-    if creature.spine is None:
-        found = find_spine(skeleton, limbs, hip)
-        if not found:
-            return (), []
-        names = f'"{skeleton.label(found[0])}" to "{skeleton.label(found[-1])}"'
-        guess = f"its spine runs from {names}, {len(found)} joints; --spine names another"
-        return tuple(row_of[node] for node in found), [guess]
-    nodes = [find_node(skeleton, text, "spine") for text in creature.spine]
-    turned = {node for limb in limbs for node in (*limb.joints, limb.foot_joint)}
-    for node in nodes:
-        if node not in row_of:
-            joints = choices(skeleton.label(row) for row in row_of)
-            raise RigError(
-                f'{skeleton.document.name}: spine: "{skeleton.label(node)}" is no joint of the '
-                f"skin; its joints are {joints}"
-            )
-        if node in turned or nodes.count(node) > 1:
-            fault = "belongs to a leg" if node in turned else "is named twice"
-            raise RigError(
-                f'{skeleton.document.name}: spine: "{skeleton.label(node)}" {fault}; '
-                "name joints of the trunk, from back to head"
-            )
-    return tuple(row_of[node] for node in nodes), []

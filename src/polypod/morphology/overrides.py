@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from polypod.errors import RigError, choices
-from polypod.morphology.creature import Creature
+from polypod.morphology.creature import HIP_KEYS, SPINE_KEYS, Creature
 from polypod.morphology.names import find_node
 from polypod.morphology.skeleton import Skeleton
-from polypod.morphology.types import Morphology
-
-HIP_KEYS = ("flexion", "sideways", "twist")
+from polypod.morphology.spine import SpineTable
+from polypod.morphology.types import FloatArray, LegTable, Morphology
 
 
 def override_feet(morphology: Morphology, skeleton: Skeleton, creature: Creature) -> Morphology:
@@ -43,36 +43,68 @@ def override_limits(morphology: Morphology, skeleton: Skeleton, creature: Creatu
     """Return the morphology with the joint limits that the creature file gives.
 
     Raises:
-        RigError: it names no joint of a leg, or gives a hip's angles to another joint.
+        RigError: it names no joint that turns, or gives a joint angles that are not its own.
     """
     if not creature.limit:
         return morphology
-    legs = morphology.legs
-    bend, hip = legs.bend_limit.copy(), legs.hip_limit.copy()
-    place_of = {
+    legs, spine = morphology.legs, morphology.segments
+    legs = legs._replace(bend_limit=legs.bend_limit.copy(), hip_limit=legs.hip_limit.copy())
+    spine = spine._replace(limit=spine.limit.copy(), tail_limit=spine.tail_limit.copy())
+    in_leg = {
         int(morphology.joint_node[legs.joint[k, m]]): (k, m)
         for k in range(len(legs.length))
         for m in range(int(legs.joint_count[k]))
     }
+    in_spine = _rows_of_limits(morphology, spine)
     for name, limits in creature.limit.items():
-        node = find_node(skeleton, name, f'{creature.file}: limit."{name}"')
-        if node not in place_of:
-            joints = choices(skeleton.label(joint) for joint in place_of)
-            raise RigError(
-                f'{creature.file}: limit."{name}": is no joint that turns in a leg; '
-                f"these are {joints}"
-            )
-        k, m = place_of[node]
-        wrong = set(limits) & ({"bend"} if m == 0 else set(HIP_KEYS))
-        if wrong:
-            valid = HIP_KEYS if m == 0 else ("bend",)
-            raise RigError(
-                f'{creature.file}: limit."{name}".{sorted(wrong)[0]}: is not for '
-                f"{'the first joint' if m == 0 else 'this joint'} of a leg; "
-                f"valid is {choices(valid)}"
-            )
-        if m == 0:
-            hip[k] = [limits[key][0] if key in limits else np.nan for key in HIP_KEYS]
+        place = f'{creature.file}: limit."{name}"'
+        node = find_node(skeleton, name, place)
+        if node in in_leg:
+            first = in_leg[node][1] == 0
+            what = "the first joint of a leg" if first else "this joint of a leg"
+            _judge_keys(place, limits, what, HIP_KEYS if first else ("bend",))
+            _limit_leg(legs, *in_leg[node], limits)
+        elif node in in_spine:
+            _judge_keys(place, limits, "a joint of spine or tail", SPINE_KEYS)
+            row = in_spine[node]
+            row[:] = [
+                limits[key][0] if key in limits else row[i] for i, key in enumerate(SPINE_KEYS)
+            ]
         else:
-            bend[k, m] = limits["bend"]
-    return replace(morphology, legs=legs._replace(bend_limit=bend, hip_limit=hip))
+            joints = choices(skeleton.label(joint) for joint in (*in_leg, *in_spine))
+            raise RigError(
+                f"{place}: is no joint that turns in a leg, spine or tail; these are {joints}"
+            )
+    return replace(morphology, legs=legs, segments=spine)
+
+
+def _rows_of_limits(morphology: Morphology, spine: SpineTable) -> dict[int, FloatArray]:
+    """Return by its node where the limits [3] of each joint of spine and tail are.
+
+    A joint at the very end turns against nothing and has none.
+    """
+    found = {}
+    for joint, hinge in zip(spine.joint, spine.hinge, strict=True):
+        if hinge > 0:
+            found[int(morphology.joint_node[joint])] = spine.limit[hinge]
+    for t, joint in enumerate(spine.tail_joint):
+        found[int(morphology.joint_node[joint])] = spine.tail_limit[t]
+    return found
+
+
+def _judge_keys(
+    place: str, limits: Mapping[str, tuple[float, ...]], what: str, valid: Sequence[str]
+) -> None:
+    wrong = sorted(set(limits) - set(valid))
+    if wrong:
+        raise RigError(f"{place}.{wrong[0]}: is not for {what}; valid is {choices(valid)}")
+
+
+def _limit_leg(
+    legs: LegTable, leg: int, joint: int, limits: Mapping[str, tuple[float, ...]]
+) -> None:
+    """Write what is said of a leg's joint."""
+    if joint == 0:
+        legs.hip_limit[leg] = [limits[key][0] if key in limits else np.nan for key in HIP_KEYS]
+    elif "bend" in limits:
+        legs.bend_limit[leg, joint] = limits["bend"]

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from polypod.morphology.spine import SpineTable
 from polypod.rigs.gltf import GltfDocument
 
 FloatArray = NDArray[np.float64]
@@ -98,5 +99,6 @@ class Morphology:
     foot_node: IntArray  # [K] node index to which the sole is fixed
     foot_offset: FloatArray  # [K, 3] the sole in that node's own frame and units
     spine: tuple[int, ...]  # rows of the joint table, from back to head; may be empty
+    segments: SpineTable  # what of the spine bends, and what rides on it
     body: BodyTable
     guesses: tuple[str, ...]  # one sentence for each thing that was guessed

@@ -59,8 +59,8 @@ class LegsAhead(NamedTuple):
     others: IntArray  # [1] how many other legs there are
     leg: IntArray  # [S] their rows
     frame: FloatArray  # [5] the `FootFrame` that paths are in; world where the last is 0
-    position: FloatArray  # [T, 3] the body
-    rotation: FloatArray  # [T, 4]
+    position: FloatArray  # [T, K, 3] the frame in which each of these legs hangs
+    rotation: FloatArray  # [T, K, 4]
     sole: FloatArray  # [T, S, 3]
     effector: FloatArray  # [T, S, 3]
     posed: BoolArray  # [T, S] the points below are written
@@ -87,8 +87,8 @@ def make_legs_ahead(ik: IkTable, section_radius: FloatArray, foot_joint: IntArra
         others=np.zeros(1, np.int64),
         leg=np.zeros(legs, np.int64),
         frame=np.zeros(5),
-        position=np.zeros((moments, 3)),
-        rotation=np.zeros((moments, 4)),
+        position=np.zeros((moments, legs, 3)),
+        rotation=np.zeros((moments, legs, 4)),
         sole=np.zeros((moments, legs, 3)),
         effector=np.zeros((moments, legs, 3)),
         posed=np.zeros((moments, legs), np.bool_),
@@ -104,8 +104,8 @@ def pose_ahead(
     ahead: LegsAhead, moment: int, leg: int, effector: Vec3, sole: Vec3, point_out: Any
 ) -> None:
     """Write the points of a leg [M + 2, 3] as it is posed at a moment; world, m."""
-    position = load_vec3(ahead.position[moment])
-    turn = load_quat(ahead.rotation[moment])
+    position = load_vec3(ahead.position[moment, leg])
+    turn = load_quat(ahead.rotation[moment, leg])
     target = unrotate(turn, effector - position)
     solve_leg(ahead.ik, leg, target, ahead.leg_rotation, ahead.leg_point)
     count = ahead.ik.joint_count[leg]
@@ -146,8 +146,8 @@ def room_between(ahead: LegsAhead, moment: int, other: int, most: float) -> floa
 @kernel
 def hip_ahead(ahead: LegsAhead, moment: int, leg: int) -> Vec3:
     """Return a hip's place in plan at a moment; y is 0."""
-    turn = load_quat(ahead.rotation[moment])
-    hip = load_vec3(ahead.position[moment]) + rotate(turn, load_vec3(ahead.ik.hip_rest[leg]))
+    turn = load_quat(ahead.rotation[moment, leg])
+    hip = load_vec3(ahead.position[moment, leg]) + rotate(turn, load_vec3(ahead.ik.hip_rest[leg]))
     return Vec3(hip.x, 0.0, hip.z)
 
 
@@ -252,8 +252,8 @@ def strains_hip(ahead: LegsAhead, request: StepRequest, path: PathRow) -> bool:
         along, _ = swing_progress(request.profile, MOMENTS[moment], request.launch)
         sole = path_point(path.point, path.tangent, path.fraction, path.count[0], along)
         effector = place_ahead(ahead, sole + request.effector_offset_touchdown)
-        turn = load_quat(ahead.rotation[moment])
-        target = unrotate(turn, effector - load_vec3(ahead.position[moment]))
+        turn = load_quat(ahead.rotation[moment, own])
+        target = unrotate(turn, effector - load_vec3(ahead.position[moment, own]))
         offset = offset_from_hip(target, hip, ahead.ik.chain_length[own])
         if direction_strain(ahead.ik, own, offset) > STRAINED:
             return True

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from polypod.environment.table import EnvironmentTable
 from polypod.report.apart import apart_figures
 from polypod.report.arrays import FloatArray
+from polypod.report.backbone import backbone_figures
 from polypod.report.contact import contact_figures
 from polypod.report.files import replacing
 from polypod.report.ground import Ground
@@ -65,6 +66,7 @@ def measure(
         **apart_figures(recording),
         **stride_figures(recording, gait_duty, gait_phase),
         **trunk_figures(recording, ground),
+        **backbone_figures(recording),
     }
 
 

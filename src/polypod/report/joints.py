@@ -38,6 +38,14 @@ def leg_rows(legs: LegTable, leg: int) -> list[int]:
     return rows
 
 
+def frames_of_leg(recording: Recording, leg: int) -> FloatArray:
+    """Return the rotation [F, 4] of what a leg hangs on: its girdle's segment, or the body."""
+    spine = recording.morphology.segments
+    segment = int(spine.of_leg[leg])
+    row = int(spine.joint[segment]) if segment >= 0 else -1
+    return recording.joint_rotation[:, row] if row >= 0 else recording.body_rotation
+
+
 def turns_of_leg(recording: Recording, leg: int) -> FloatArray:
     """Return the turn [F - 1, N] of each joint of a leg relative to its parent, rad a frame.
 
@@ -90,12 +98,12 @@ def _limit_excess(recording: Recording) -> float:
     """Return the most that any joint of a leg is beyond its limits in any frame, degrees."""
     legs = recording.morphology.legs
     table = build_ik_table(legs)
-    unturned = conjugate_all(recording.body_rotation)[:, None]
     most = 0.0
     for leg, count in enumerate(legs.joint_count):
         rows = legs.joint[leg, :count]
-        rotation_body = multiply_all(unturned, recording.joint_rotation[:, rows])
-        for turned in rotation_body:
+        unturned = conjugate_all(frames_of_leg(recording, leg))[:, None]
+        rotation_leg = multiply_all(unturned, recording.joint_rotation[:, rows])
+        for turned in rotation_leg:
             most = max(most, limit_excess(table, leg, turned))
     return float(np.degrees(most))
 

@@ -161,7 +161,7 @@ class Record(NamedTuple):
 
 
 def bones(morphology: Morphology) -> IntArray:
-    """Return the pairs [B, 2] of joints, consecutive in legs and spine, at constant distance.
+    """Return the pairs [B, 2] of joints, consecutive in legs, spine and tail, at constant distance.
 
     Along a leg: the pivots that inverse kinematics turns, then the foot's joint, which is held at
     the effector even where the file does not hang it below the leg.
@@ -178,7 +178,10 @@ def bones(morphology: Morphology) -> IntArray:
         if tip >= 0 and tip not in chain and morphology.joint_parent[tip] == chain[-1]:
             chain.append(tip)
         pairs.extend(pairwise(chain))
-    pairs.extend(pairwise(morphology.spine))
+    table = morphology.segments
+    pairs.extend(pairwise(table.joint.tolist() if len(table.joint) else morphology.spine))
+    if len(table.tail_joint):
+        pairs.extend(pairwise([int(table.joint[0]), *table.tail_joint.tolist()]))
     rest = morphology.joint_rest
     kept = [(a, b) for a, b in pairs if np.linalg.norm(rest[a] - rest[b]) > least]
     return np.array(list(dict.fromkeys(kept)), np.int64).reshape(-1, 2)

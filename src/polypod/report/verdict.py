@@ -35,6 +35,8 @@ LIMITS = (
     _most("forbidden_crossings", 0, "{} swings cross a forbidden obstacle"),
     _most("joint_turn_deg", 45.0, "a joint turns by {} degrees between two frames"),
     _most("joint_limit_excess_deg", 1e-3, "a joint is {} degrees beyond its limit"),
+    _most("spine_limit_excess_deg", 1e-3, "a joint of the spine is {} degrees beyond its limit"),
+    _most("spine_twist_step_deg", 10.0, "the spine twists by {} degrees between two frames"),
     _most("bone_variation", 1e-5, "a bone's length varies by {} of itself"),
     _most("played_stance_slip_of_leg", 1e-3, "as played, a standing foot slips by {} leg lengths"),
     _most(

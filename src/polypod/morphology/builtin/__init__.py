@@ -8,6 +8,7 @@ from polypod.errors import RigError, choices
 from polypod.morphology.builtin import (
     ant,
     biped,
+    centaur,
     centipede,
     crab,
     lizard,
@@ -25,6 +26,7 @@ _BUILDERS: dict[str, Callable[[], BuiltIn]] = {
     "centipede": centipede.build,
     "wolf": wolf.build,
     "lizard": lizard.build,
+    "centaur": centaur.build,
     "biped": biped.build,
 }
 NAMES = tuple(_BUILDERS)

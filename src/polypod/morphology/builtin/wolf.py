@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from polypod.morphology.builtin.paws import add_paw
 from polypod.morphology.builtin.sculpture import GLOSS, BuiltIn, Paint, Piece, Sculpture, plain
 from polypod.morphology.builtin.shapes import body, ellipsoid, limb
 
@@ -144,8 +145,8 @@ def build() -> BuiltIn:
     fore = limb((BLADE, *FORE_LEG), FORE_PROFILE, sides=14, corner=0.4)
     fore_leg = wolf.add(fore, ("Chest", *FORE_NAMES), FORE_PAINT)
     wolf.fuse(hide, (brush, hind_leg, fore_leg), SEAM)
-    _paw(wolf, HIND_NAMES[-1], 0.94)
-    _paw(wolf, FORE_NAMES[-1], 1.0)
+    add_paw(wolf, HIND_NAMES[-1], 0.94, CREAM, PAD, INK)
+    add_paw(wolf, FORE_NAMES[-1], 1.0, CREAM, PAD, INK)
     return wolf.finish(
         [f"{HIND_NAMES[0]}:{HIND_NAMES[-1]}", f"{FORE_NAMES[0]}:{FORE_NAMES[-1]}"], names
     )
@@ -213,43 +214,3 @@ def _head(wolf: Sculpture) -> None:
         pointed=True,
     )
     wolf.add(ear, "Head", Paint(((0.0, FUR), (1.0, SADDLE)), CREAM, belly_edge=-0.3), both=True)
-
-
-def _paw(wolf: Sculpture, bone: str, scale: float) -> None:
-    """Add a paw under its joint: the ball, four toes with claws."""
-    x, height, z = (float(value) for value in wolf.position(bone))
-    ball = body(
-        [
-            (x, 0.5 * height, z - 0.030 * scale, 0.0),
-            (x, 0.5 * height, z - 0.020 * scale, 0.025 * scale, 0.6 * height, 0.54 * height),
-            (x, 0.5 * height, z + 0.008 * scale, 0.031 * scale, 0.78 * height, 0.54 * height),
-            (x, 0.42 * height, z + 0.035 * scale, 0.027 * scale, 0.45 * height, 0.46 * height),
-            (x, 0.38 * height, z + 0.050 * scale, 0.0),
-        ],
-        rings=9,
-        sides=12,
-        exponent=2.6,
-    )
-    wolf.add(ball, bone, Paint(((0.0, CREAM),), PAD, belly_edge=-0.8))
-    for aside, ahead in ((-0.0225, 0.040), (-0.0080, 0.053), (0.0080, 0.053), (0.0225, 0.040)):
-        middle = (x + aside * scale, 0.0125 * scale, z + ahead * scale)
-        toe = ellipsoid(
-            middle,
-            (0.15 * aside, 0.0, 0.020 * scale),
-            0.0095 * scale,
-            0.0125 * scale,
-            rings=5,
-            sides=8,
-        )
-        wolf.add(toe, bone, Paint(((0.0, CREAM),), PAD, belly_edge=-0.8))
-        _, y, end = middle
-        claw = limb(
-            [
-                (middle[0], y - 0.001, end + 0.014 * scale),
-                (middle[0], y - 0.001, end + 0.014 * scale + 0.008),
-                (middle[0], y - 0.007, end + 0.014 * scale + 0.015),
-            ],
-            ((0.0, 0.0042), (1.0, 0.0035), (2.0, 0.0)),
-            sides=6,
-        )
-        wolf.add(claw, bone, plain(INK), GLOSS)
