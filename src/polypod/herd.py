@@ -34,6 +34,7 @@ from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
+from polypod.spine.elevation import PELVIC_YAW
 from polypod.spine.struck import bend_by_blow
 from polypod.spine.table import make_bend_table
 from polypod.state import HerdTables, JointTable
@@ -104,12 +105,14 @@ def make_tables(morphology: Morphology) -> HerdTables:
     hip_height = max(hip_height, 0.05 * leg_length)
     ik = build_ik_table(legs)
     girdles = find_girdles(legs)
+    bend = make_bend_table(morphology.segments, girdles, legs)
+    girdle_yaw = PELVIC_YAW * bend.apart if len(morphology.segments.joint) else 0.0
     return HerdTables(
         legs=legs,
         ik=ik,
         girdles=girdles,
         spine=morphology.segments,
-        bend=make_bend_table(morphology.segments, girdles, legs),
+        bend=bend,
         body=morphology.body,
         joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
         leg_length=leg_length,
@@ -117,7 +120,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
         pendulum_time=math.sqrt(leg_length / GRAVITY),
         tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
         ladder=make_ladder(legs),
-        stride=make_stride_table(legs, ik, hip_height),
+        stride=make_stride_table(legs, ik, hip_height, girdle_yaw),
         track=track * (1.0 if upright else SPRAWLING_TRACK),
         # Two feet do not tell the slope of the ground ahead, nor what is level on it.
         level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,

@@ -78,7 +78,7 @@ def sized(creature: Build, size: float) -> Build:
         hip_height=size * creature.hip_height,
         leg_length=size * creature.leg_length,
         legs=legs._replace(length=size * legs.length, sole_stance=size * legs.sole_stance),
-        stride=StrideTable(*(size * np.asarray(field) for field in stride[:3]), size * stride.sink),
+        stride=StrideTable(*(size * np.asarray(field) for field in stride[:4]), size * stride.sink),
     )
 
 

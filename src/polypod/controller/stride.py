@@ -28,6 +28,8 @@ DEEPEST_SINK = 0.07
 SINK_CYCLES = 1.0
 # A heel is up when its foot lifts, and not much earlier: so much of its rise counts.
 HEEL_COUNTED = 0.7
+# A girdle is not turned as far as it gets at just the moment when a foot lands or lifts.
+YAW_COUNTED = 0.95
 # With more legs than these feet would come too near to each other, and stand low enough.
 MOST_LEGS = 4
 
@@ -38,11 +40,17 @@ class StrideTable(NamedTuple):
     travel: FloatArray  # [S, K] m, of the sole, forward
     centre: FloatArray  # [S, K] m, the stance's middle ahead of the rest place
     sideways: FloatArray  # [K] m, of the sole, whichever way the body goes
+    yawed: FloatArray  # [K] m that a girdle which yaws by its feet adds to the way forward
     sink: float  # m by which the lowest height is lower
 
 
-def make_stride_table(legs: LegTable, ik: IkTable, hip_height: float) -> StrideTable:
-    """Return how far the soles travel under a body that walks forward."""
+def make_stride_table(
+    legs: LegTable, ik: IkTable, hip_height: float, girdle_yaw: float
+) -> StrideTable:
+    """Return how far the soles travel under a body that walks forward.
+
+    `girdle_yaw` is how far the girdles of sprawling legs yaw to either side in a stride, rad.
+    """
     count = len(legs.length)
     travel, centre = np.zeros((2, count)), np.zeros((2, count))
     kernel_ik = by_reference(ik)
@@ -58,7 +66,14 @@ def make_stride_table(legs: LegTable, ik: IkTable, hip_height: float) -> StrideT
                 ahead = behind = min(ahead, behind)
             travel[row, k] = ahead + behind
             centre[row, k] = 0.5 * (ahead - behind)
-    return StrideTable(travel, centre, ik.stance_travel_least, DEEPEST_SINK * hip_height)
+    beside = np.where(legs.upright, 0.0, np.abs(legs.sole_stance[:, 0]))
+    return StrideTable(
+        travel,
+        centre,
+        ik.stance_travel_least,
+        2.0 * YAW_COUNTED * math.sin(girdle_yaw) * beside,
+        DEEPEST_SINK * hip_height,
+    )
 
 
 def _heel_shift(legs: LegTable, k: int) -> FloatArray:
@@ -86,16 +101,16 @@ def _reaches(ik: IkTable, kernel_ik: IkTable, k: int, offset: FloatArray) -> boo
 
 
 @kernel
-def travel_limit(row: int, direction: float, stride: Any) -> float:
+def travel_limit(row: int, direction: float, yaw: float, stride: Any) -> float:
     """Return how far every leg lets its foot travel under the body while it stands, m.
 
     From the height at which the body stands (`row` 0) or the lowest (1); `direction` is the
-    travel's, rad from straight ahead.
+    travel's, rad from straight ahead, `yaw` how much girdles yaw by their feet, 1: as animals' do.
     """
     sideways = abs(math.sin(direction))
     limit = math.inf
     for k in range(stride.sideways.shape[0]):
-        travel = stride.travel[row, k]
+        travel = stride.travel[row, k] + yaw * stride.yawed[k]
         travel += sideways * (stride.sideways[k] - travel)
         limit = min(limit, travel)
     return limit

@@ -125,8 +125,8 @@ def stance_share(duty: float) -> float:
 @kernel
 def stride_of(
     speed: float, duty_low: float, duty_high: float, user_period: float, start: Any, extent: Any,
-    direction: float, caution: float, hip_height: float, leg_length: float, upright: bool,
-    legs: Any, stride: Any,
+    direction: float, caution: float, yaw: float, hip_height: float, leg_length: float,
+    upright: bool, legs: Any, stride: Any,
 ) -> Stride:  # fmt: skip
     """Return the stride at a speed: as an animal's would be, as far as the legs reach.
 
@@ -139,6 +139,7 @@ def stride_of(
         extent: [K] the gait's disks.
         direction: rad, of the travel from straight ahead.
         caution: share of what a lower body adds to a stride that is not taken.
+        yaw: how much girdles of sprawling legs yaw by their feet, 1: as animals' do.
         hip_height: m, from the ground to the hips as the creature stands.
         leg_length: m, hip to sole along the leg.
         upright: legs stand below their hips.
@@ -148,10 +149,12 @@ def stride_of(
     free = tempo(
         speed, hip_height, leg_length, upright, duty_low, duty_high, math.inf, user_period
     )  # fmt: skip
-    # Legs reach farther from a lower body, which sinks as far as the stride needs it.
+    # Legs reach farther from a lower body, which sinks as far as the stride needs it. Girdles that
+    # yaw by their feet are half way back when one of a pair lands long before the other lifts.
     share = stance_share(free.duty)
-    standing = share * travel_limit(0, direction, stride)
-    lowest = max(share * travel_limit(1, direction, stride), standing)
+    yaw *= min(1.0, 0.5 / free.duty) ** 2
+    standing = share * travel_limit(0, direction, yaw, stride)
+    lowest = max(share * travel_limit(1, direction, yaw, stride), standing)
     lowest += caution * (standing - lowest)
     most = neighbour_limit(start, extent, direction, legs)
     wished = min(speed * free.duty * free.period, most)
@@ -164,7 +167,7 @@ def stride_of(
 
 
 @kernel
-def stride_at(c: int, speed: float, state: Any, command: Any, tables: Any) -> Stride:
+def stride_at(c: int, speed: float, state: Any, command: Any, tables: Any, settings: Any) -> Stride:
     """Return a creature's stride at a speed, m/s.
 
     The gait is that of the state; what the user pins of it is kept, a duty within its range.
@@ -174,9 +177,10 @@ def stride_at(c: int, speed: float, state: Any, command: Any, tables: Any) -> St
     if not math.isnan(command.duty[c]):
         low = min(max(command.duty[c], low), high)
         high = low
+    yaw = state.spine_share[c, 1, 0] * settings.spine_yaw
     return stride_of(
         speed, low, high, command.period[c], state.goal_start[c], state.goal_extent[c],
-        command.travel[c], state.caution[c], tables.hip_height, tables.leg_length,
+        command.travel[c], state.caution[c], yaw, tables.hip_height, tables.leg_length,
         tables.upright, tables.legs, tables.stride,
     )  # fmt: skip
 
@@ -214,12 +218,12 @@ def asked_stride(
         fastest_foot_speed(c, now, state, command, tables),
         fastest_foot_speed(c, soon, state, command, tables),
     )
-    return stride_at(c, speed, state, command, tables)
+    return stride_at(c, speed, state, command, tables, settings)
 
 
 @kernel
 def quickest_period(
-    c: int, pose: PlanPose, duty: float, state: Any, command: Any, tables: Any
+    c: int, pose: PlanPose, duty: float, state: Any, command: Any, tables: Any, settings: Any
 ) -> float:
     """Return the shortest cycle of a pushed creature, s: legs have their own pendulum's time.
 
@@ -230,7 +234,7 @@ def quickest_period(
         pose.detour, pose.pace, NO_DEFLECTION,
     )  # fmt: skip
     speed = fastest_foot_speed(c, alone, state, command, tables)
-    own = stride_at(c, speed, state, command, tables)
+    own = stride_at(c, speed, state, command, tables, settings)
     quickest = FASTEST_CATCH_UP * QUICKEST_STEP * tables.pendulum_time / (1.0 - duty)
     return min(quickest, own.period)
 
@@ -286,7 +290,7 @@ def advance_gait(
         return 0.0
     period = aim.period
     if is_pushed(now.aside):
-        period = max(period, quickest_period(c, now, aim.duty, state, command, tables))
+        period = max(period, quickest_period(c, now, aim.duty, state, command, tables, settings))
     if math.isnan(command.period[c]):
         period /= 1.0 + state.hurry[c]
     if settings.stride_variation > 0.0:

@@ -106,7 +106,9 @@ class Build:
             legs=FeetTable(
                 np.full(foot_count, length), np.full(foot_count, upright), side, row, sole
             ),
-            stride=StrideTable(np.stack([travel] * 2), np.zeros((2, foot_count)), travel, 1.0),
+            stride=StrideTable(
+                np.stack([travel] * 2), np.zeros((2, foot_count)), travel, 0.0 * travel, 1.0
+            ),
             foot_name=("",) * foot_count,
         )
 
@@ -165,6 +167,7 @@ class Build:
                 extent,
                 0.0,
                 0.0,
+                1.0,
                 self.hip_height,
                 self.leg_length,
                 self.upright,

@@ -57,7 +57,7 @@ _ENTRIES = {
     "walking-trot": _Entry("walk", 0.60, 0.67, 0.75, lag=0.46),
     "trot": _Entry("run", 0.30, 0.45, 0.50, lag=0.5),
     # A sprawler's walking trot and trot, one into the other: lag .46 when slow to .5 when fast.
-    "lizard": _Entry("run", 0.32, 0.67, 0.75, lag=0.46, lag_per_duty=-0.18),
+    "lizard": _Entry("run", 0.29, 0.67, 0.75, lag=0.46, lag_per_duty=-0.18),
     "amble": _Entry("run", 0.40, 0.48, 0.55, lag=0.25),
     "pace": _Entry("run", 0.35, 0.43, 0.50, corners=(0.0, 0.5, 0.05, 0.55)),
     "canter": _Entry("run", 0.38, 0.41, 0.45, corners=(0.0, 0.28, 0.30, 0.57)),
