@@ -63,7 +63,7 @@ WAYS = {
     "figure of eight": (eight, None, 6.0),
     "back": (turn_back, None, 5.0),
     "stairs": (lambda time, herd: None, stairs, 5.0),
-    "hills": (circle(0.3), hills, 5.0),
+    "hills": (circle(0.8), hills, 5.0),
     "pushed": (pushed, None, 3.0),
 }
 

@@ -33,6 +33,10 @@ HURRY = 1.2
 MOST_HURRY = 0.5
 # Who goes faster than this, leg lengths a pendulum time, walks on in a turn if its spine bends.
 WALKING = 0.03
+# It takes so many times as long to turn as it takes to walk to where its foremost girdle is, or so
+# many leg lengths of that.
+FOLLOWING = 2.5
+LONGEST_FRONT = 1.0
 # And turns at this share of its turn rate at least, however slowly it gets on.
 SLOWEST_TURN = 0.05
 # A usual gait cycle, leg pendulum times.
@@ -127,6 +131,10 @@ def steer(
         # Who bends walks on along an arc that its spine can lie on, and turns on the spot only
         # where it stands.
         share = max(share, min(1.0, limit / (curl * max(speed_asked, 1e-9))))
+        # The head is first in a turn, and the middle follows when it comes to where that began.
+        front = tables.girdles.place[tables.girdles.place.shape[0] - 1]
+        front = min(front, LONGEST_FRONT * tables.leg_length)
+        response = max(response, FOLLOWING * front / max(pose.speed, speed_asked, 1e-9))
         walking = speed_asked * pendulum / (WALKING * tables.leg_length)
         limit = min(limit, max(curl * pose.speed, limit * max(1.0 - walking, SLOWEST_TURN)))
     speed_asked *= share
