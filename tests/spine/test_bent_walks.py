@@ -94,9 +94,11 @@ def test_what_holds_in_every_frame(name: str, way: str) -> None:
         )
 
 
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_head_leads_and_the_back_follows_on_its_track(side: float) -> None:
-    morphology = load_rig("wolf")
+@pytest.mark.parametrize(
+    ("name", "side"), [("wolf", 1.0), ("wolf", -1.0), ("lizard", 1.0), ("centaur", -1.0)]
+)
+def test_the_head_leads_and_the_back_follows_on_its_track(name: str, side: float) -> None:
+    morphology = load_rig(name)
     turn = turn_by(0.5 * math.pi * side)
     bent, _ = go(morphology, 5.0, turn)
     rigid, _ = go(morphology, 5.0, turn, settings=Settings(spine=0.0))
