@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +20,13 @@ from polypod.report.arrays import rotate_all
 from polypod.report.backbone import backbone_figures, joint_angles
 from polypod.report.figures import measure
 
-SPINED = ("wolf", "lizard")
+SPINED = ("wolf", "lizard", "centaur")
+# By strangers, and how high they stand, m.
+SHARED = {
+    "khronos_fox/Fox.glb": 0.6,
+    "quaternius/horse.glb": 1.8,
+    "quaternius/triceratops.glb": 2.0,
+}
 
 
 def circle(side: float) -> Callable[[float, Herd], None]:
@@ -71,7 +78,18 @@ WAYS = {
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", SPINED)
 def test_what_holds_in_every_frame(name: str, way: str) -> None:
-    morphology = load_rig(name)
+    keeps_what_holds(load_rig(name), way)
+
+
+@pytest.mark.parametrize("way", ["figure of eight", "stairs", "pushed"])
+@pytest.mark.parametrize("name", SHARED)
+def test_what_holds_of_rigs_by_strangers(
+    name: str, way: str, shared_rig: Callable[[str], Path]
+) -> None:
+    keeps_what_holds(load_rig(shared_rig(name), height=SHARED[name]), way)
+
+
+def keeps_what_holds(morphology: Morphology, way: str) -> None:
     steer, place, seconds = WAYS[way]
     environment = place(morphology) if place is not None else None
     recording, world = go(morphology, seconds, steer, environment)
