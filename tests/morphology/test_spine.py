@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from polypod.errors import RigError
+from polypod.morphology.describe import describe
 from polypod.morphology.load import load_rig
 from polypod.morphology.segments import nearest_bone
 from polypod.morphology.spine import SpineTable
@@ -402,6 +403,24 @@ def test_a_creature_file_sets_limits_and_the_tail(tmp_path: Path) -> None:
     rigid = tmp_path / "rigid.toml"
     rigid.write_text('rig = "authored.glb"\nspine = []\n')
     assert len(load_rig(rigid).segments.joint) == 0
+
+
+def test_the_description_says_what_bends_and_what_rides_where(tmp_path: Path) -> None:
+    told = describe(load_rig(creature(tmp_path, "[limit.Spine2]\nyaw = 0.25\nroll = 0\n")))
+    for said in (
+        "spine: Spine0 > Spine1 > Spine2 > Spine3 > Neck > Head\n",
+        "carries the legs to HindFoot.L, HindFoot.R; with it HindGirdle.L, HindGirdle.R\n",
+        "degrees, neck\n",
+        "degrees, head; with it Ear.L, Ear.R\n",
+        "degrees, tail\n",
+    ):
+        assert said in told
+    assert [
+        line for line in told.splitlines() if line.startswith("  Spine2") and "turns 14 " in line
+    ]
+    rigid = tmp_path / "rigid.toml"
+    rigid.write_text('rig = "authored.glb"\nspine = []\n')
+    assert "spine: none; the trunk moves as one piece" in describe(load_rig(rigid))
 
 
 WRONG = {

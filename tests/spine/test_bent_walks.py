@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +20,13 @@ from polypod.report.arrays import rotate_all
 from polypod.report.backbone import backbone_figures, joint_angles
 from polypod.report.figures import measure
 
-SPINED = ("wolf", "lizard")
+SPINED = ("wolf", "lizard", "centaur")
+# By strangers, and how high they stand, m.
+SHARED = {
+    "khronos_fox/Fox.glb": 0.6,
+    "quaternius/horse.glb": 1.8,
+    "quaternius/triceratops.glb": 2.0,
+}
 
 
 def circle(side: float) -> Callable[[float, Herd], None]:
@@ -63,7 +70,7 @@ WAYS = {
     "figure of eight": (eight, None, 6.0),
     "back": (turn_back, None, 5.0),
     "stairs": (lambda time, herd: None, stairs, 5.0),
-    "hills": (circle(0.3), hills, 5.0),
+    "hills": (circle(0.8), hills, 5.0),
     "pushed": (pushed, None, 3.0),
 }
 
@@ -71,7 +78,18 @@ WAYS = {
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("name", SPINED)
 def test_what_holds_in_every_frame(name: str, way: str) -> None:
-    morphology = load_rig(name)
+    keeps_what_holds(load_rig(name), way)
+
+
+@pytest.mark.parametrize("way", ["figure of eight", "stairs", "pushed"])
+@pytest.mark.parametrize("name", SHARED)
+def test_what_holds_of_rigs_by_strangers(
+    name: str, way: str, shared_rig: Callable[[str], Path]
+) -> None:
+    keeps_what_holds(load_rig(shared_rig(name), height=SHARED[name]), way)
+
+
+def keeps_what_holds(morphology: Morphology, way: str) -> None:
     steer, place, seconds = WAYS[way]
     environment = place(morphology) if place is not None else None
     recording, world = go(morphology, seconds, steer, environment)
@@ -94,11 +112,13 @@ def test_what_holds_in_every_frame(name: str, way: str) -> None:
         )
 
 
-@pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_head_leads_and_the_back_follows_on_its_track(side: float) -> None:
-    morphology = load_rig("wolf")
+@pytest.mark.parametrize(
+    ("name", "side"), [("wolf", 1.0), ("wolf", -1.0), ("lizard", 1.0), ("centaur", -1.0)]
+)
+def test_the_head_leads_and_the_back_follows_on_its_track(name: str, side: float) -> None:
+    morphology = load_rig(name)
     turn = turn_by(0.5 * math.pi * side)
-    bent, _ = go(morphology, 5.0, turn)
+    bent, _ = go(morphology, 7.0, turn)
     rigid, _ = go(morphology, 5.0, turn, settings=Settings(spine=0.0))
     assert off_the_track(bent) < 0.10
     assert off_the_track(rigid) > 0.15
@@ -113,7 +133,8 @@ def test_the_head_leads_and_the_back_follows_on_its_track(side: float) -> None:
     first = [int(np.argmax(angle > math.radians(20.0))) for angle in yaw]
     assert 0 < first[0] < first[1] < first[2]
     # And the trunk is straight again in the end.
-    assert np.degrees(np.abs(joint_angles(bent)[-1, : spine.neck - 1, 0])).max() < 2.0
+    trunk = np.degrees(joint_angles(bent)[-FPS:, : spine.neck - 1, 0].sum(axis=1))
+    assert abs(trunk.mean()) < 4.0
 
 
 @pytest.mark.parametrize("share", [0.6, 1.0])

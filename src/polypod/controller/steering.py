@@ -34,6 +34,12 @@ HURRY = 1.2
 MOST_HURRY = 0.5
 # Who goes faster than this, leg lengths a pendulum time, walks on in a turn if its spine bends.
 WALKING = 0.03
+# It takes so many times as long to turn as it takes to walk to where its foremost girdle is. A body
+# that reaches ahead half as far as this, leg lengths, or farther, takes less: its front swings in a
+# time of its own (`spine.bend`), and both together took a centipede too long.
+FOLLOWING = 2.8
+SLOW = 0.1  # leg lengths a pendulum time: who is slower turns as who stands
+LONGEST_FRONT = 2.0
 # And turns at this share of its turn rate at least, however slowly it gets on.
 SLOWEST_TURN = 0.05
 # A usual gait cycle, leg pendulum times.
@@ -133,7 +139,14 @@ def steer(
         # Who bends walks on along an arc that its spine can lie on, and turns on the spot only
         # where it stands.
         share = max(share, min(1.0, limit / (curl * max(speed_asked, 1e-9))))
-        walking = speed_asked * pendulum / (WALKING * tables.leg_length)
+        # The head is first in a turn, and the middle follows when it comes to where that began.
+        front = tables.girdles.place[tables.girdles.place.shape[0] - 1]
+        front = max(min(front, LONGEST_FRONT * tables.leg_length - front), 0.0)
+        pace = speed_asked * pendulum / tables.leg_length
+        goes = max(pace, pose.speed * pendulum / tables.leg_length)
+        follows = FOLLOWING * front / tables.leg_length * goes / (goes * goes + SLOW * SLOW)
+        response = max(response, follows * pendulum)
+        walking = pace / WALKING
         limit = min(limit, max(curl * pose.speed, limit * max(1.0 - walking, SLOWEST_TURN)))
     speed_asked *= share
     rate_asked = min(limit, max(-limit, error / response))

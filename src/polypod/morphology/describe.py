@@ -108,7 +108,7 @@ def _spine(morphology: Morphology) -> str:
         return rigid if named else f"{rigid}; --spine J,J,... names one"
     lines = [
         f"spine: {named}",
-        "  segments, from back to head (length in m; yaw, pitch, roll either way)",
+        "  segments, from back to head (length in m; yaw, pitch, roll against the one behind)",
     ]
     for s, row in enumerate(table.joint):
         turn = table.limit[s] if s else None

@@ -24,10 +24,12 @@ MOMENTS = 6
 FORESIGHT = 2.4
 FARTHER = 1.5
 FARTHEST = 16.0
-# A body that stands straightens within so many pendulum times; one that walks faster than this,
-# leg lengths a pendulum time, by its way alone.
+# Who is held up is taken to go on at this share of the speed asked for.
+HELD_UP = 0.5
+# A body that stands straightens within so many pendulum times, a long one for each leg length that
+# it reaches back; one that walks faster than this, leg lengths a pendulum time, by its way alone.
 RELAX = 3.0
-WALKING = 0.15
+WALKING = 0.08
 
 
 @kernel
@@ -42,9 +44,13 @@ def note_track(c: int, dt: float, pose: PlanPose, state: Any, command: Any, tabl
     turned = wrapped(heading - state.track_from[c])
     state.track_from[c] = heading
     pendulum = tables.pendulum_time
-    speed = max(0.0, math.cos(command.travel[c])) * 0.5 * (state.speed[c] + pose.speed)
-    slow = max(0.0, 1.0 - speed * pendulum / (WALKING * tables.leg_length))
-    left = math.exp(-slow * dt / (RELAX * pendulum))
+    along = max(0.0, math.cos(command.travel[c]))
+    speed = along * 0.5 * (state.speed[c] + pose.speed)
+    # Who is to walk on and is held up stays bent.
+    goes = max(speed, along * command.speed[c])
+    slow = max(0.0, 1.0 - goes * pendulum / (WALKING * tables.leg_length))
+    long = max(1.0, -tables.girdles.place[0] / tables.leg_length)
+    left = math.exp(-slow * dt / (RELAX * long * pendulum))
     track = state.track[c]
     for i in range(TRACK):
         track[i] = (track[i] - turned) * left
@@ -62,17 +68,26 @@ def note_track(c: int, dt: float, pose: PlanPose, state: Any, command: Any, tabl
 
 @kernel
 def note_way(c: int, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any) -> None:
-    """Write where the way leads: for some moments ahead the arc, m, and the yaw against now."""
+    """Write where the way leads: for some moments ahead the arc, m, and the yaw against now.
+
+    Who is to walk and is held up for the moment will go on: only who turns on the spot has all of
+    its turn where it stands.
+    """
     pendulum = tables.pendulum_time
     front = FARTHER * tables.girdles.place[tables.girdles.place.shape[0] - 1]
     slowest = front / (FARTHEST * pendulum)
-    horizon = max(FORESIGHT * pendulum, front / max(pose.speed, slowest))
+    speed = max(pose.speed, command.speed[c])
+    pace = max(pose.pace, HELD_UP)
+    horizon = max(FORESIGHT * pendulum, front / max(speed, slowest))
     dt = horizon / MOMENTS
     along = max(0.0, math.cos(command.travel[c]))
     way = state.way_ahead[c]
     arc = 0.0
     begun = pose.heading - pose.aside.heading
-    then = pose
+    then = PlanPose(
+        pose.x, pose.z, pose.heading, pose.turn_rate, speed, pose.waypoint, pose.corner,
+        pose.detour, pace, pose.aside,
+    )  # fmt: skip
     for i in range(MOMENTS):
         before = then
         then = steer(before, c, state, command, tables, settings, dt, 1.0)
