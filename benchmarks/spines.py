@@ -43,7 +43,7 @@ TURNERS = (
     ("centipede", 0.5, 12.0),
 )
 GAITS = (("trot", 1.6), ("canter", 2.5), ("transverse-gallop", 3.0), ("rotary-gallop", 5.0))
-SHOWN = (1.07, 1.33, 1.6, 1.87, 2.13, 2.5)  # s, of the picture
+SHOWN = (1.2, 1.6, 2.0, 2.4, 2.8, 3.3)  # s, of the picture
 PANEL = 300
 
 
@@ -162,7 +162,7 @@ def draw(path: str) -> None:
         morphology = load_rig(name)
         span = 1.25 * float(np.ptp(morphology.joint_rest[:, 2]))
         for settings in (RIGID, Settings()):
-            walked, world = go(morphology, 3.0, turn_by(0.5 * math.pi), settings=settings)
+            walked, world = go(morphology, 3.5, turn_by(0.5 * math.pi), settings=settings)
             frames = [round(moment * FPS) for moment in SHOWN]
             panels = [_from_above(walked, world, frame, span) for frame in frames]
             rows.append(np.concatenate(panels, axis=1))
