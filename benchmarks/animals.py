@@ -14,11 +14,11 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from polypod.herd import make_tables
 from polypod.morphology.load import load_rig
 from polypod.morphology.types import Morphology
 from polypod.recording import record_walk
 from polypod.report.strides import stride_figures
+from polypod.tables import make_tables
 from polypod.world import World
 
 # What a walk may differ from an animal's.

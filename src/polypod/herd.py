@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import NamedTuple
 
@@ -12,45 +11,27 @@ from numpy.typing import ArrayLike
 from polypod.allocation import make_command, make_state
 from polypod.body.blow import judge_place, land_blow, strike
 from polypod.body.hull import make_hull_scratch
-from polypod.body.push import recovery_rate
 from polypod.command import Command, numbers_of
 from polypod.config import Settings
 from polypod.controller.lift import WIDEST_SEARCH
 from polypod.controller.spawn import WIDEST_SPAWN
-from polypod.controller.stride import make_stride_table
 from polypod.crowd.avoid import HEEDED
 from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
 from polypod.errors import SettingError
 from polypod.footprints.plan import PlanScratch, make_plan_scratch
 from polypod.footprints.settings import PlanSettings
-from polypod.gait.follow import PINNED, ladder_names, make_ladder
-from polypod.gait.tempo import GRAVITY
-from polypod.ik.table import build_ik_table
-from polypod.morphology.girdles import find_girdles
+from polypod.gait.follow import PINNED, ladder_names
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
 from polypod.paths.apart import make_legs_ahead
 from polypod.paths.curve import PathRow, path_store
 from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
-from polypod.spine.elevation import PELVIC_YAW
 from polypod.spine.struck import bend_by_blow
-from polypod.spine.table import make_bend_table
-from polypod.state import HerdTables, JointTable
+from polypod.tables import folding_room, make_tables, step_share
 
 WAYPOINT_ROOM = 256
-# A trunk on two legs cannot follow the slope between its feet: it would nod at each step.
-TWO_LEGGED_TILT = 0.25
-# Weight of level places beside those of `PlanSettings`: tall legs have little to spare in height.
-LEVEL_UPRIGHT = 0.5
-LEVEL_SPRAWLING = 0.15
-# A sprawler's feet go round what its body passes: the part of its track that is kept free.
-SPRAWLING_TRACK = 0.72
-# Clearance of swing feet, leg lengths: the middles of BIOMECHANICS 2, mammals 8-15 %, arthropods
-# 10-25 %. No dependence on size is known there.
-STEP_UPRIGHT = 0.115
-STEP_SPRAWLING = 0.175
 # Part of what a leg can fold in stance that a step on level ground may take.
 FOLDING = 0.4
 FASTEST = 1e3  # m/s, of any push
@@ -89,59 +70,6 @@ class Pose(NamedTuple):
 
     position: FloatArray  # [C, J, 3] world, m
     rotation: FloatArray  # [C, J, 4] world, away from the rest pose; x, y, z, w
-
-
-def make_tables(morphology: Morphology) -> HerdTables:
-    """Return a morphology's static data as kernels read it."""
-    legs = morphology.legs
-    driven = np.zeros(len(morphology.joint_node), np.bool_)
-    driven[legs.joint[legs.joint >= 0]] = True
-    for oriented in (legs.foot_joint, legs.toe_joint):
-        driven[oriented[oriented >= 0]] = True
-    leg_length = float(np.mean(legs.length))
-    upright = bool(np.mean(legs.upright) > 0.5)
-    track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
-    hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
-    hip_height = max(hip_height, 0.05 * leg_length)
-    ik = build_ik_table(legs)
-    girdles = find_girdles(legs)
-    bend = make_bend_table(morphology.segments, girdles, legs)
-    girdle_yaw = PELVIC_YAW * bend.apart if len(morphology.segments.joint) else 0.0
-    return HerdTables(
-        legs=legs,
-        ik=ik,
-        girdles=girdles,
-        spine=morphology.segments,
-        bend=bend,
-        body=morphology.body,
-        joints=JointTable(morphology.joint_parent, morphology.joint_rest, driven),
-        leg_length=leg_length,
-        hip_height=hip_height,
-        pendulum_time=math.sqrt(leg_length / GRAVITY),
-        tilt_scale=TWO_LEGGED_TILT if len(legs.length) <= 2 else 1.0,
-        ladder=make_ladder(legs),
-        stride=make_stride_table(legs, ik, hip_height, girdle_yaw),
-        track=track * (1.0 if upright else SPRAWLING_TRACK),
-        # Two feet do not tell the slope of the ground ahead, nor what is level on it.
-        level_weight=LEVEL_UPRIGHT if upright and len(legs.length) > 2 else LEVEL_SPRAWLING,
-        upright=upright,
-        stance_travel=float(ik.stance_travel.min()),
-        recovery=recovery_rate(hip_height, leg_length),
-    )
-
-
-def folding_room(tables: HerdTables) -> float:
-    """Return how far every leg can still fold in stance, metres: what a crouched leg steps with."""
-    ik = tables.ik
-    reach = np.linalg.norm(ik.effector_stance - ik.hip_rest, axis=1)
-    return max(0.0, float(np.min(reach - ik.shortest)))
-
-
-def step_share(settings: Settings, tables: HerdTables) -> float:
-    """Return the clearance of swing feet, leg lengths: as set, or by the creature's build."""
-    if settings.step_height is not None:
-        return settings.step_height
-    return STEP_UPRIGHT if tables.upright else STEP_SPRAWLING
 
 
 class Herd:

@@ -9,7 +9,7 @@ from animals import ANIMALS, DUTY, STRIDE, Animal, Point, scaled, walk
 
 from polypod.gait.library import gait_ladder, make_gait
 from polypod.gait.tempo import froude_number, tempo
-from polypod.herd import make_tables
+from polypod.tables import make_tables
 
 OF = {animal.name: animal for animal in ANIMALS}
 # What a lizard's legs do not reach while its girdles do not turn: the tempo's law does.

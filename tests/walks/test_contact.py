@@ -19,7 +19,6 @@ from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain
 from polypod.errors import SettingError
 from polypod.footprints.settings import placed_shape
-from polypod.herd import make_tables
 from polypod.math.quat import from_axis_angle, from_heading, rotate
 from polypod.math.vec3 import Vec3, distance, dot, length, load_vec3, normalized
 from polypod.morphology.load import load_rig
@@ -29,6 +28,7 @@ from polypod.reference import by_reference
 from polypod.report.arrays import multiply_all, runs_of
 from polypod.report.figures import measure
 from polypod.report.record import Recording
+from polypod.tables import make_tables
 from polypod.world import World
 
 FPS = 30.0

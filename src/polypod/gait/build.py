@@ -10,8 +10,8 @@ import numpy as np
 
 from polypod.controller.stride import StrideTable
 from polypod.errors import GaitError, SettingError
-from polypod.gait.advance import stride_of
 from polypod.gait.pattern import BoolArray, FloatArray, Gait, IntArray
+from polypod.gait.stride import stride_of
 from polypod.gait.tempo import comfortable_speed
 from polypod.morphology.types import Morphology
 from polypod.reference import by_reference
@@ -70,7 +70,7 @@ class Build:
     @classmethod
     def of(cls, morphology: Morphology) -> Build:
         """Return the build of a creature."""
-        from polypod.herd import make_tables
+        from polypod.tables import make_tables
 
         tables = make_tables(morphology)
         legs = tables.legs

@@ -38,7 +38,7 @@ NEAR_SPRAWLING = 0.15
 ROOM = 0.03
 # What a pair of footprint and path is worth where two legs would touch, and where they would be
 # inside each other by `ROOM`. Deeper it is worth ever less: legs that are crossed come out again.
-TOUCHING = 0.5
+TOUCHING = 0.4
 INSIDE = 0.15
 
 # A hip is turned too far on the way at so much of its range: a little beyond may be a prediction's.
