@@ -39,6 +39,10 @@ RIGS = (
     Rig("horse", "quaternius/horse.glb", 1.8),
     Rig("spider-bot", "spider_bot/spider_bot_model.gltf", 1.5),
     Rig("mech", "quaternius/mech_george.glb", 3.0),
+    Rig("lizard"),
+    Rig("centaur"),
+    Rig("centipede"),
+    Rig("triceratops", "quaternius/triceratops.glb", 2.5),
 )
 # Places whose only random numbers are none: one seed says all.
 UNSEEDED = ("flat", "stairs", "slope")

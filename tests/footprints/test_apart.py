@@ -58,7 +58,7 @@ def test_a_place_is_worth_less_the_nearer_the_legs_come():
     assert factor(0.0) == 1.0
     worth = [factor(share) for share in np.linspace(0.0, 1.0, 41)]
     assert all(b <= a + 1e-12 for a, b in pairwise(worth))
-    assert worth[-1] < TOUCHING - 0.3
+    assert worth[-1] < 0.5 * TOUCHING
     assert all(0.0 < value <= 1.0 for value in worth)
     assert any(TOUCHING < value < 1.0 for value in worth)
 

@@ -22,6 +22,9 @@ from polypod.world import World
 
 SECONDS, FPS = 4.0, 30.0
 TOLERANCE = 1e-9  # leg lengths
+# Legs that pull at a pushed body do so one after the other, until it is as near as this to where
+# all reach: another order ends elsewhere.
+PULLED = 2e-5
 
 
 class Walked(NamedTuple):
@@ -93,7 +96,7 @@ def assert_same(a: Walked, b: Walked, leg: float, tolerance: float = TOLERANCE) 
         assert gap <= tolerance, f"{name} differ by {gap:.3g} leg lengths"
 
 
-@pytest.fixture(scope="module", params=["spider", "wolf"])
+@pytest.fixture(scope="module", params=["spider", "wolf", "lizard", "centaur"])
 def creature(request: pytest.FixtureRequest) -> Morphology:
     return load_rig(request.param)
 
@@ -145,7 +148,7 @@ def test_mirrored(creature: Morphology, turn: float, travel: float, push: float)
         right.joints[:, joints] * flip,
         right.swinging[:, swap],
     )
-    assert_same(left, mirrored, unit(creature))
+    assert_same(left, mirrored, unit(creature), PULLED if push else TOLERANCE)
 
 
 @pytest.mark.parametrize("strength", [0.5, 2.5])

@@ -40,6 +40,9 @@ WALKING = 0.03
 FOLLOWING = 2.8
 SLOW = 0.1  # leg lengths a pendulum time: who is slower turns as who stands
 LONGEST_FRONT = 2.0
+# Not so among what it does not get past, or where it passes to a side of that, by more than so
+# many radians.
+PASSING = 0.05
 # And turns at this share of its turn rate at least, however slowly it gets on.
 SLOWEST_TURN = 0.05
 # A usual gait cycle, leg pendulum times.
@@ -135,6 +138,8 @@ def steer(
     response = settings.turn_response * pendulum
     limit = settings.turn_rate / pendulum
     curl = min(settings.spine, 1.0) * tables.bend.tightest
+    if state.halts[c] > 0 or state.caught[c] > 0 or abs(state.shy[c]) > PASSING:
+        free = 0.0
     if curl > 0.0 and free >= 2.0 * abs(math.sin(min(abs(error), 0.5 * math.pi))) / curl:
         # Who bends walks on along an arc that its spine can lie on, and turns on the spot only
         # where it stands.
