@@ -16,7 +16,17 @@ from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
 from audit import Finding, audit
-from places import LEAST_SHARE, PLACES, RIGS, UNSEEDED, Rig, default_speed, load, make_place
+from places import (
+    LEAST_SHARE,
+    LONG_BACKED,
+    PLACES,
+    RIGS,
+    UNSEEDED,
+    Rig,
+    default_speed,
+    load,
+    make_place,
+)
 
 from polypod.errors import PolypodError
 from polypod.recording import record_walk
@@ -129,7 +139,7 @@ def summary(results: list[Result]) -> str:
 
 def main() -> int:
     """Run the matrix."""
-    names = [rig.name for rig in RIGS]
+    names = [rig.name for rig in (*RIGS, *LONG_BACKED)]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rigs", nargs="+", default=names, choices=names, metavar="RIG")
     parser.add_argument("--places", nargs="+", default=PLACES, choices=PLACES, metavar="PLACE")
@@ -141,7 +151,7 @@ def main() -> int:
     arguments = parser.parse_args()
     walks = [
         Walk(rig, place, seed, arguments.seconds, arguments.fps)
-        for rig in RIGS
+        for rig in (*RIGS, *LONG_BACKED)
         if rig.name in arguments.rigs
         for place in arguments.places
         for seed in range(arguments.first_seed, arguments.first_seed + arguments.seeds)

@@ -39,6 +39,9 @@ RIGS = (
     Rig("horse", "quaternius/horse.glb", 1.8),
     Rig("spider-bot", "spider_bot/spider_bot_model.gltf", 1.5),
     Rig("mech", "quaternius/mech_george.glb", 3.0),
+)
+# Those with long backs beside wolf, fox and horse.
+LONG_BACKED = (
     Rig("lizard"),
     Rig("centaur"),
     Rig("centipede"),

@@ -20,7 +20,7 @@ SECONDS = {"flat": 4.0, "hills": 6.0, "stairs": 6.0, "slope": 6.0, "crates": 20.
 BUILT_IN = [rig.name for rig in RIGS if not rig.file]
 SHARED = [rig for rig in RIGS if rig.file]
 PLACES = ("flat", "hills", "stairs", "slope", "crates")
-UNPROVEN = {("biped", "crates")}
+UNPROVEN = {("biped", "crates"), ("lizard", "crates")}
 
 
 def broken(morphology: Morphology, place: str) -> list[str]:
@@ -40,8 +40,13 @@ def broken(morphology: Morphology, place: str) -> list[str]:
     return lines
 
 
-# On two legs among so many crates it gets less far than four: the benchmark tells, and no luck.
-SLICE = [(name, place) for name in BUILT_IN for place in PLACES if (name, place) not in UNPROVEN]
+# On two legs, or near the ground, it gets less far among so many crates: the benchmark tells.
+SLICE = [
+    (name, place)
+    for name in (*BUILT_IN, "lizard", "centaur")
+    for place in PLACES
+    if (name, place) not in UNPROVEN
+]
 
 
 @pytest.mark.parametrize(("name", "place"), SLICE)

@@ -81,7 +81,7 @@ def stride_of(
         start: [K] the gait's disks.
         extent: [K] the gait's disks.
         direction: rad, of the travel from straight ahead.
-        caution: share of what a lower body adds to a stride that is not taken.
+        caution: share of what a lower body and girdles add to a stride that is not taken.
         yaw: how much girdles of sprawling legs yaw by their feet, 1: as animals' do.
         hip_height: m, from the ground to the hips as the creature stands.
         leg_length: m, hip to sole along the leg.
@@ -95,7 +95,7 @@ def stride_of(
     # Legs reach farther from a lower body, which sinks as far as the stride needs it. Girdles that
     # yaw by their feet are half way back when one of a pair lands long before the other lifts.
     share = stance_share(free.duty)
-    yaw *= min(1.0, 0.5 / free.duty) ** 2
+    yaw *= (1.0 - caution) * min(1.0, 0.5 / free.duty) ** 2
     standing = share * travel_limit(0, direction, yaw, stride)
     lowest = max(share * travel_limit(1, direction, yaw, stride), standing)
     lowest += caution * (standing - lowest)
