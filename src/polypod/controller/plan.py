@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from polypod.body.reach import may_drag
+from polypod.body.support import foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.balance import foot_to_catch_with, is_due
 from polypod.controller.feet import plan_foot, preferred_footprint
@@ -76,10 +77,11 @@ def plan_feet(
             continue
         radius = settings.search_radius * tables.legs.length[k]
         errand = way_on(c, k, preferred, left, radius, state)
+        counted = foot_on_its_way(c, k, state)
         if plan_foot(
             c, k, dt, pose, errand, state, command, tables, settings, env, plan_settings, scratch
         ):
-            take_new_way(c, k, errand.launch, state, settings, scratch)
+            take_new_way(c, k, errand.launch, counted, state, settings, scratch)
     landing = note_standing(c, dt, state.turn[c], state, tables, settings, scratch)
     searching = True
     first = 0

@@ -10,7 +10,7 @@ from polypod.controller.errand import Errand
 from polypod.environment.placing import world_point
 from polypod.gait.needle import progress_since_lift, swing_progress
 from polypod.math.quat import Quat, load_quat, slerp
-from polypod.math.vec3 import Vec3, length_plan, load_vec3
+from polypod.math.vec3 import Vec3, length_plan, load_vec3, store_vec3
 from polypod.paths.curve import path_point, path_row, path_velocity
 from polypod.paths.curve import swing_progress as progress_on_path
 
@@ -123,16 +123,21 @@ def way_on(c: int, k: int, preferred: Vec3, left: float, radius: float, state: A
 
 
 @kernel
-def take_new_way(c: int, k: int, launch: float, state: Any, settings: Any, scratch: Any) -> None:
+def take_new_way(
+    c: int, k: int, launch: float, counted: Vec3, state: Any, settings: Any, scratch: Any
+) -> None:
     """Put a swinging foot on the path just planned, at the speed that it has.
 
-    `launch` is what the path was planned with, by the length that was left of the old one.
+    `launch` is what the path was planned with, by the length that was left of the old one, and
+    `counted` where the foot counted as being for the body (`body.support.foot_on_its_way`): it goes
+    on from there, or the body would bob by a foot that is planned anew in mid-air.
     """
     row = path_row(state.path, c, k)
     along, _ = along_path(c, k, state.swing_progress[c, k], state)
     speed = launch * max(1.0 - along, 0.1) * row.length[0]
     launch = speed / max(scratch.path.length[0], 1e-12)
     begin_swing(c, k, state.needle[c], launch, state, settings, scratch)
+    store_vec3(state.foot_start[c, k], counted)
     state.waiting[c, k] = 0.0
 
 
