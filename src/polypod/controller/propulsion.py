@@ -16,7 +16,7 @@ MOMENTS = 4
 # Where feet hardly push at all, changes of speed are not as much larger as would make up for it.
 LEAST_SHARE = 0.1
 # A flight that lasts so many cycles longer than the gait's is none that the gait meant.
-OVERDUE = 0.1
+OVERDUE = 0.2
 
 
 @kernel
