@@ -15,13 +15,14 @@ from polypod.body.support import feet_plane
 from polypod.compute import kernel
 from polypod.controller.activity import note_activity
 from polypod.controller.headway import note_headway
+from polypod.controller.landing import advance_swings
 from polypod.controller.lift import any_off_place
 from polypod.controller.move import move_body
 from polypod.controller.moving import any_threatened, carry_feet
 from polypod.controller.parting import shift_spacing
 from polypod.controller.plan import plan_feet
 from polypod.controller.reach import note_reaching, reach_feet
-from polypod.controller.settle import advance_swings, settle_body
+from polypod.controller.settle import settle_body
 from polypod.controller.steering import load_pose, note_pose, store_pose
 from polypod.gait.advance import advance_gait
 from polypod.gait.needle import step_count

@@ -78,6 +78,17 @@ def shift_as_it_is(
 
 
 @kernel
+def shift_as_wished(
+    c: int, k: int, sole_world: Vec3, state: Any, tables: Any, scratch: Any, position: Vec3,
+    turn: Quat,
+) -> Vec3:  # fmt: skip
+    """Return `foot_shift` of a foot turned and rolled as the scratch has it, its sole anywhere."""
+    foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
+    bend = scratch.bend[k, 0]
+    return foot_shift(c, k, sole_world, foot_turn, bend, state, tables, position, turn)
+
+
+@kernel
 def may_drag(c: int, state: Any) -> bool:
     """Return whether a body takes feet in the air along that fall behind: in runs.
 
@@ -104,9 +115,7 @@ def body_within_reach(
             if state.reaching[c, k]:
                 continue
             sole = load_vec3(scratch.sole[k])
-            foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
-            bend = scratch.bend[k, 0]
-            shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
+            shift = shift_as_wished(c, k, sole, state, tables, scratch, position, turn)
             size = length(shift)
             if attempt == 0:
                 state.pull[c, k] = size

@@ -13,7 +13,7 @@ from polypod.controller.others import gather_other_legs, look_ahead
 from polypod.controller.rest import body_height_at, hip_at, level_height, rest_ahead
 from polypod.controller.roll import rise_at_lift
 from polypod.controller.steering import PlanPose, predict
-from polypod.controller.stride import stance_centre
+from polypod.controller.stride import stance_centre, stance_seconds
 from polypod.crowd.legs import add_company
 from polypod.environment.placing import own_point
 from polypod.environment.table import surface_at
@@ -28,14 +28,6 @@ CROWDED = 0.5
 # uneven ground, but not the whole foot. The last is for what moves: it is not asked whether the
 # chords between its frames are free, for a foot goes less far in a frame where they are not.
 STEP_SHARES = (1.0, 0.35, 1.0)
-
-
-@kernel
-def stance_seconds(c: int, k: int, state: Any) -> float:
-    """Return how long a foot will stand once it has landed; 0 where nobody walks."""
-    if state.cycle_rate[c] <= 0.0:
-        return 0.0
-    return float((1.0 - state.goal_extent[c, k]) / state.cycle_rate[c])
 
 
 @kernel

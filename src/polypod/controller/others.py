@@ -10,6 +10,7 @@ from polypod.body.reach import effector_world, may_drag
 from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
+from polypod.controller.parting import passes
 from polypod.controller.rest import body_height_at, rest_ahead
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import foot_along, swing_time_left
@@ -23,17 +24,6 @@ from polypod.spine.frames import leg_frame_at
 
 # Who shortens its strides by so much of what it may does not count on feet that have yet to lift.
 CAREFUL = 0.25
-
-
-@kernel
-def passes(k: int, other: int, legs: Any) -> bool:
-    """Return whether two legs are neighbours on a side that part, and so may pass each other.
-
-    In a run they do in mid-air, folded under the body: who kept clear of that would
-    straddle.
-    """
-    beside = legs.side[k] == legs.side[other] and abs(legs.row[k] - legs.row[other]) == 1
-    return bool(beside and legs.upright[k] and legs.upright[other])
 
 
 @kernel
@@ -102,6 +92,7 @@ def gather_other_legs(
         gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
         if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
             continue
+        # In a run they do in mid-air, folded under the body: who kept clear of that would straddle.
         if may_drag(c, state) and passes(k, other, legs):
             continue
         sole = load_vec3(state.foot[c, other])

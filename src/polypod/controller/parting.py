@@ -12,7 +12,7 @@ import math
 from typing import Any
 
 from polypod.compute import kernel
-from polypod.controller.stride import stance_centre
+from polypod.controller.stride import stance_centre, stance_seconds
 from polypod.paths.apart import ROOM
 
 # Room between legs that pass each other, and from the middle to a fore leg, `ROOM`s: with one alone
@@ -26,13 +26,17 @@ PARTED = 0.3
 
 
 @kernel
+def passes(k: int, other: int, legs: Any) -> bool:
+    """Return whether two legs are neighbours on a side that part, and so may pass each other."""
+    beside = legs.side[k] == legs.side[other] and abs(legs.row[k] - legs.row[other]) == 1
+    return bool(beside and legs.upright[k] and legs.upright[other])
+
+
+@kernel
 def stance_edge(c: int, k: int, end: float, state: Any, command: Any, tables: Any) -> float:
     """Return how far ahead of the body centre a stance begins (`end` 1) or ends (-1), m."""
     middle: float = tables.legs.sole_stance[k, 2] + command.spacing[c, k, 1]
-    if state.cycle_rate[c] <= 0.0:
-        return middle
-    stance = (1.0 - state.goal_extent[c, k]) / state.cycle_rate[c]
-    way = state.speed[c] * math.cos(command.travel[c]) * stance
+    way = state.speed[c] * math.cos(command.travel[c]) * stance_seconds(c, k, state)
     return middle + stance_centre(c, k, way, state, tables) + 0.5 * end * abs(way)
 
 
@@ -82,12 +86,12 @@ def parting(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
     out = 0.0
     inward = OF_FORE * (1.0 - state.caution[c])
     for other in range(legs.length.shape[0]):
-        if legs.side[other] != legs.side[k] or not legs.upright[other]:
+        if not passes(k, other, legs):
             continue
-        if legs.row[other] == legs.row[k] + 1:
+        if legs.row[other] > legs.row[k]:
             whole = parted(c, k, other, state, command, tables)
             out += whole - min(inward * whole, inward_room(other, tables))
-        elif legs.row[other] == legs.row[k] - 1:
+        else:
             whole = parted(c, other, k, state, command, tables)
             out -= min(inward * whole, inward_room(k, tables))
     return float(out * legs.side[k])

@@ -15,6 +15,7 @@ from polypod.body.reach import (
     may_drag,
     pitched,
     shift_as_it_is,
+    shift_as_wished,
 )
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
@@ -22,7 +23,7 @@ from polypod.controller.steering import PlanPose, sideways, wrapped
 from polypod.controller.swing import foot_along, wished_progress
 from polypod.crowd.avoid import apart_from, list_neighbours
 from polypod.environment.movers import clear_of_movers, depth_in_mover
-from polypod.environment.table import is_forbidden, penetration_at, surface
+from polypod.environment.table import is_forbidden, penetration_at
 from polypod.math.quat import Quat, angle_of, conjugate, load_quat, slerp, store_quat
 from polypod.math.vec3 import Vec3, length, load_vec3, mix, store_vec3
 from polypod.morphology.roll import FLAT
@@ -43,8 +44,6 @@ SHORTER = 4
 # stances would look like a slip.
 FRAMES_AIRBORNE = 1.001
 NEARLY_DOWN = 0.95
-# A foot has landed where it is so near to the surface, leg lengths.
-LANDED = 1e-3
 # So many moments of a frame are looked at for what comes without warning.
 PUSHES = 4
 # And so far is a foot pushed for those between two frames, leg lengths.
@@ -178,9 +177,7 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         if state.reaching[c, k]:
             continue
         sole = load_vec3(scratch.sole[k])
-        foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
-        bend = scratch.bend[k, 0]
-        shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
+        shift = shift_as_wished(c, k, sole, state, tables, scratch, position, turn)
         if length(shift) <= 2.0 * tolerance or (state.swinging[c, k] and may_drag(c, state)):
             continue
         if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
@@ -191,23 +188,6 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         if length(shift) > 2.0 * tolerance:
             return False
     return True
-
-
-@kernel
-def dragged(c: int, k: int, sole: Vec3, state: Any, tables: Any, scratch: Any) -> Vec3:
-    """Return where a swinging foot gets whose body does not wait for it, world.
-
-    As near to its place on its path as its leg reaches: a foot that has just lifted falls behind
-    its body.
-    """
-    position = load_vec3(state.position[c])
-    foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
-    bend = scratch.bend[k, 0]
-    turn = load_quat(state.rotation[c])
-    shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
-    if length(shift) <= 2.0 * TOLERANCE * tables.leg_length:
-        return sole
-    return sole + shift
 
 
 @kernel
@@ -269,51 +249,3 @@ def settle_body(
             if abs(position.y - asked) > TOLERANCE * tables.leg_length:
                 state.lift[c, 0] += position.y - asked
             break
-
-
-@kernel
-def advance_swings(
-    c: int, dt: float, state: Any, tables: Any, scratch: Any, env: Any
-) -> None:  # fmt: skip
-    """Carry the swinging feet as far as `settle_body` found, and land those that arrived."""
-    for k in range(state.swinging.shape[1]):
-        if not scratch.held[k]:
-            for i in range(3):
-                state.foot_pitch[c, k, i] = scratch.pitch[k, i]
-                state.foot_bend[c, k, i] = scratch.bend[k, i]
-        if not state.swinging[c, k] or state.reaching[c, k]:
-            continue
-        state.airborne[c, k] += dt
-        sole = load_vec3(scratch.sole[k])
-        if scratch.held[k]:
-            state.waiting[c, k] += dt
-            if env.mover_count > 0:
-                here = load_vec3(state.foot[c, k])
-                here = pushed_aside(c, k, here, state, tables, env)
-                # A body that is carried away by what it stands on takes its feet in the air along.
-                position = load_vec3(state.position[c])
-                turn = load_quat(state.rotation[c])
-                here = here + shift_as_it_is(c, k, here, state, tables, position, turn)
-                store_vec3(state.foot[c, k], here)
-            continue
-        late = 0.0
-        if may_drag(c, state):
-            near = dragged(c, k, sole, state, tables, scratch)
-            if near != sole and scratch.progress[k] >= 1.0:
-                # Its place is out of reach, and no place to land: another is looked for soon.
-                scratch.progress[k] = NEARLY_DOWN
-                late = state.waiting[c, k] + dt
-            sole = near
-        state.waiting[c, k] = late
-        state.swing_progress[c, k] = scratch.progress[k]
-        store_vec3(state.foot[c, k], sole)
-        store_quat(state.foot_rotation[c, k], load_quat(scratch.turn[k]))
-        if scratch.progress[k] >= 1.0:
-            height, support = surface(env, sole.x, sole.z)
-            if env.mover_count > 0 and abs(height - sole.y) > LANDED * tables.leg_length:
-                # Not there any more: the foot is sent elsewhere in the next step.
-                state.swing_progress[c, k] = NEARLY_DOWN
-                continue
-            state.swinging[c, k] = False
-            state.stood[c, k] = 0.0
-            state.foot_support[c, k] = support

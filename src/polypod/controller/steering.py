@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from polypod.body.push import Deflection, hold_back, load_deflection, recover, store_deflection
 from polypod.compute import kernel
+from polypod.controller.turning import turn_rule
 from polypod.gait.tempo import GRAVITY
 from polypod.math.vec3 import Vec3, load_vec3
 from polypod.routes.aim import next_aim, way_left
@@ -32,19 +33,6 @@ HELD_BACK = 0.5
 UNHURRIED = 0.93
 HURRY = 1.2
 MOST_HURRY = 0.5
-# Who goes faster than this, leg lengths a pendulum time, walks on in a turn if its spine bends.
-WALKING = 0.03
-# It takes so many times as long to turn as it takes to walk to where its foremost girdle is. A body
-# that reaches ahead half as far as this, leg lengths, or farther, takes less: its front swings in a
-# time of its own (`spine.bend`), and both together took a centipede too long.
-FOLLOWING = 2.8
-SLOW = 0.1  # leg lengths a pendulum time: who is slower turns as who stands
-LONGEST_FRONT = 2.0
-# Not so among what it does not get past, or where it passes to a side of that, by more than so
-# many radians.
-PASSING = 0.05
-# And turns at this share of its turn rate at least, however slowly it gets on.
-SLOWEST_TURN = 0.05
 # A usual gait cycle, leg pendulum times.
 CYCLE = 2.5
 
@@ -99,7 +87,6 @@ def steer(
     on_z = pose.z - pose.aside.z
     on_heading = pose.heading - pose.aside.heading
     aside = recover(pose.aside, tables.recovery, dt)
-    pendulum = tables.pendulum_time
     acceleration = acceleration_limit(c, pose.speed, command, tables, settings)
     travel = command.travel[c]
     heading_asked = command.heading[c]
@@ -133,30 +120,11 @@ def steer(
         stop = left
         speed_asked = min(speed_asked, math.sqrt(acceleration * left), left / dt)
     error = wrapped(heading_asked + pose.detour - on_heading)
-    # Who must turn far turns first: full speed would circle round the place it is to go to.
-    share = min(1.0, max(0.1, 1.4 * math.cos(error)))
-    response = settings.turn_response * pendulum
-    limit = settings.turn_rate / pendulum
-    curl = min(settings.spine, 1.0) * tables.bend.tightest
-    if state.halts[c] > 0 or state.caught[c] > 0 or abs(state.shy[c]) > PASSING:
-        free = 0.0
-    if curl > 0.0 and free >= 2.0 * abs(math.sin(min(abs(error), 0.5 * math.pi))) / curl:
-        # Who bends walks on along an arc that its spine can lie on, and turns on the spot only
-        # where it stands.
-        share = max(share, min(1.0, limit / (curl * max(speed_asked, 1e-9))))
-        # The head is first in a turn, and the middle follows when it comes to where that began.
-        front = tables.girdles.place[tables.girdles.place.shape[0] - 1]
-        front = max(min(front, LONGEST_FRONT * tables.leg_length - front), 0.0)
-        pace = speed_asked * pendulum / tables.leg_length
-        goes = max(pace, pose.speed * pendulum / tables.leg_length)
-        follows = FOLLOWING * front / tables.leg_length * goes / (goes * goes + SLOW * SLOW)
-        response = max(response, follows * pendulum)
-        walking = pace / WALKING
-        limit = min(limit, max(curl * pose.speed, limit * max(1.0 - walking, SLOWEST_TURN)))
-    speed_asked *= share
-    rate_asked = min(limit, max(-limit, error / response))
+    rule = turn_rule(c, pose.speed, speed_asked, error, free, state, tables, settings)
+    speed_asked *= rule.share
+    rate_asked = min(rule.limit, max(-rule.limit, error / rule.response))
     turn_rate = pose.turn_rate + (rate_asked - pose.turn_rate) * (
-        1.0 - math.exp(-4.0 * dt / response)
+        1.0 - math.exp(-4.0 * dt / rule.response)
     )
     gain = propulsion * acceleration * dt
     braking = min(2.0 * acceleration, settings.hardest_acceleration * GRAVITY) * dt

@@ -117,6 +117,14 @@ def travel_limit(row: int, direction: float, yaw: float, stride: Any) -> float:
 
 
 @kernel
+def stance_seconds(c: int, k: int, state: Any) -> float:
+    """Return how long a foot will stand once it has landed; 0 where nobody walks."""
+    if state.cycle_rate[c] <= 0.0:
+        return 0.0
+    return float((1.0 - state.goal_extent[c, k]) / state.cycle_rate[c])
+
+
+@kernel
 def stance_centre(c: int, k: int, way: float, state: Any, tables: Any) -> float:
     """Return how far ahead of the rest place the middle of a stance is, m.
 

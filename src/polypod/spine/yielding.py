@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import TOLERANCE, foot_shift, pitched
+from polypod.body.reach import TOLERANCE, shift_as_wished
 from polypod.compute import kernel
-from polypod.math.quat import Quat, load_quat, unrotate
+from polypod.math.quat import Quat, unrotate
 from polypod.math.vec3 import Vec3, length, load_vec3
 from polypod.spine.chain import place_segments
 from polypod.spine.curve import draw_curve
@@ -35,9 +35,7 @@ def short_of(
         if state.swinging[c, k] or tables.girdles.of_leg[k] != g:
             continue
         sole = load_vec3(scratch.sole[k])
-        foot_turn = pitched(load_quat(scratch.turn[k]), scratch.pitch[k, 0])
-        bend = scratch.bend[k, 0]
-        shift = foot_shift(c, k, sole, foot_turn, bend, state, tables, position, turn)
+        shift = shift_as_wished(c, k, sole, state, tables, scratch, position, turn)
         size = length(shift)
         if size > most:
             most = size
