@@ -184,3 +184,20 @@ def test_strides_of_a_walk_vary_at_any_frame_rate_and_threads() -> None:
     other = touchdowns(6, 0.04, 120.0)
     shared = min(len(other), len(varied))
     assert np.abs(other[:shared] - varied[:shared]).max() > 0.02
+
+
+@pytest.mark.parametrize(("kind", "speed"), [("lizard", 0.7), ("lizard", 1.2), ("spider", 0.9)])
+@pytest.mark.parametrize("fps", [24.0, 30.0])
+def test_small_fast_walkers_do_not_stop_and_go_at_film_rates(
+    kind: str, speed: float, fps: float
+) -> None:
+    """A foot that is down a frame late must not hold its body up."""
+    world, herd = start(kind, speed)
+    walk(herd, world, 2.0, fps)
+    begun = herd.state.position[0, 2]
+    slowest = speed
+    for _ in range(round(4.0 * fps)):
+        world.step(1.0 / fps)
+        slowest = min(slowest, float(herd.state.speed[0]))
+    assert herd.state.position[0, 2] - begun > 0.95 * 4.0 * speed
+    assert slowest > 0.75 * speed
