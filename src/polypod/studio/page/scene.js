@@ -1,0 +1,5 @@
+// To come.
+
+export function mountScene(element, store) {
+  return {};
+}

@@ -1,0 +1,76 @@
+// What the page knows: the last word of the server on everything, and who wants to hear of it.
+// Nothing here is changed by the page itself: it sends orders, and the server's answer changes it.
+
+export class Store {
+  constructor() {
+    this.document = null; // see docs/studio-protocol.md
+    this.creature = null;
+    this.kinds = null;
+    this.clock = { playing: true, rate: 1, time: 0, frame: 0, behind: 1 };
+    this.verdict = null;
+    this.tape = { recording: false, frames: 0, seconds: 0, scrub: null };
+    this.welcome = null;
+    this.drives = false;
+    this.canUndo = false;
+    this.canRedo = false;
+    this.connected = false;
+    this.frame = null; // as frames.js decodes it
+    this.before = null; // the frame before it
+    this.link = null; // see link.js
+    this.listeners = new Map();
+  }
+
+  // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
+  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words". Returns how to stop.
+  on(kind, listener) {
+    if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
+    this.listeners.get(kind).add(listener);
+    return () => this.listeners.get(kind).delete(listener);
+  }
+
+  tell(kind, value) {
+    for (const listener of this.listeners.get(kind) ?? []) listener(value);
+  }
+
+  // Send an order; resolves when it is done, rejects with the server's word when it is refused.
+  send(order) {
+    return this.link.send(order);
+  }
+
+  // Change a place of the document. What is refused is said to the user; edits of one gesture (a
+  // drag) are one step of undo.
+  edit(at, to, gesture = undefined) {
+    const order = { do: "edit", at, to };
+    if (gesture !== undefined) order.gesture = gesture;
+    return this.send(order).catch((refusal) => this.say(refusal.message));
+  }
+
+  // Say something to the user, in the line at the bottom.
+  say(words, good = false) {
+    this.tell("words", { words, good });
+  }
+
+  get token() {
+    return document.querySelector("meta[name=polypod-token]").content;
+  }
+
+  // Fetch a route with the token; throws the server's own word where it says no.
+  async fetch(route, options = {}) {
+    const headers = { ...(options.headers ?? {}), "X-Polypod-Token": this.token };
+    const answer = await fetch(route, { ...options, headers });
+    if (answer.ok) return answer;
+    let why = `${answer.status} ${answer.statusText}`;
+    try {
+      why = (await answer.json()).why ?? why;
+    } catch { /* no JSON: the status says it */ }
+    throw new Error(why);
+  }
+}
+
+let gestures = 0;
+
+// A name for a new gesture.
+export function newGesture() {
+  gestures += 1;
+  return `g${gestures}-${performance.now().toFixed(0)}`;
+}
