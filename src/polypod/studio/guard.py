@@ -166,8 +166,8 @@ def parse_json(text: str) -> Any:
     """Return what a JSON text says, read strictly.
 
     Raises:
-        RefusalError: no JSON, NaN or an infinity, a number beyond what JavaScript counts to, a key given
-            twice, brackets without end, or half a character.
+        RefusalError: no JSON, NaN or an infinity, a number beyond what JavaScript counts to, a key
+            given twice, brackets without end, or half a character.
     """
     try:
         parsed = json.loads(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -43,7 +44,7 @@ class Hub:
         self._heard = Outbox()
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
-        self._stop_listening = lambda: None
+        self._stop_listening: Callable[[], None] = _nothing
 
     def hear(self, told: Told) -> None:
         """Take what the simulation tells, in its own thread."""
@@ -197,6 +198,10 @@ class Hub:
                 loop.call_soon_threadsafe(answered, why)
 
         self.runner.order({key: order[key] for key in order if key != "id"}, answer)
+
+
+def _nothing() -> None:
+    """Stop listening where nobody listens."""
 
 
 def _answer(tab: Tab, order: dict[str, Any], why: str | None) -> None:

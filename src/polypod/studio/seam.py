@@ -15,7 +15,7 @@ class Told(Protocol):
 
     @property
     def kind(self) -> str:
-        """ "text", "frame" or "arrays"."""
+        """It is "text", "frame" or "arrays"."""
 
     @property
     def content(self) -> dict[str, Any] | bytes:
