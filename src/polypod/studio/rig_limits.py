@@ -22,7 +22,7 @@ from polypod.rigs.fields import Place
 LARGEST_FILE = 64 << 20  # bytes
 MOST_VALUES = 500_000  # of its JSON, about 100 bytes each once read
 MOST_NODES = 800
-MOST_ENDS = 250  # nodes without children: each may be a foot, and is compared with all others
+MOST_ENDS = 150  # nodes without children: each may be a foot, and is compared with all others
 MOST_JOINTS = 20_000  # of all skins together; each may list them all
 MOST_VERTICES = 400_000  # as often as they are shown
 MOST_WORK = 40_000_000  # nodes times vertices, which finding legs goes by: some 5 s
