@@ -1,5 +1,5 @@
-"""The studio: a page on this computer where a creature walks and everything about it is changed.
+"""The studio: a page where a creature walks and everything can be changed while it does.
 
-Python holds the truth, the page draws it: docs/studio-protocol.md says what goes between them.
-Nothing here is imported by the rest of the library.
+Needs the extra `polypod[studio]`; docs/studio-protocol.md says what server and page tell each
+other. Nothing here is compiled: a change of the page costs no new kernels.
 """
