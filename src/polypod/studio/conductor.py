@@ -62,9 +62,14 @@ class Conductor:
     def greeting(self) -> list[dict[str, Any]]:
         """Return the messages that a new tab needs, in their order."""
         return [
-            welcome_message(self), facts_of(self.stage.herd), kinds_message(self), document_message(self),
-            clock_message(self), verdict_message(self), tape_message(self),
-        ]  # fmt: skip
+            welcome_message(self),
+            facts_of(self.stage.herd),
+            kinds_message(self),
+            document_message(self),
+            clock_message(self),
+            verdict_message(self),
+            tape_message(self),
+        ]
 
     def say(self, message: dict[str, Any]) -> None:
         """Send a message to all tabs."""

@@ -53,9 +53,13 @@ def document_message(conductor: Conductor) -> Message:
 def clock_message(conductor: Conductor) -> Message:
     """Say how time goes."""
     return {
-        "is": "clock", "playing": conductor.playing, "rate": conductor.rate, "behind": conductor.behind,
-        "time": conductor.stage.world.time, "frame": conductor.number,
-    }  # fmt: skip
+        "is": "clock",
+        "playing": conductor.playing,
+        "rate": conductor.rate,
+        "behind": conductor.behind,
+        "time": conductor.stage.world.time,
+        "frame": conductor.number,
+    }
 
 
 def verdict_message(conductor: Conductor) -> Message:
