@@ -6,16 +6,21 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from polypod import __version__
-from polypod.environment.generators import GENERATORS, generator_keys
 from polypod.errors import SettingError
 from polypod.gait.library import make_gait
-from polypod.morphology.builtin import NAMES as BUILT_IN
 from polypod.studio.asked import disks_of, facts_of
 from polypod.studio.document import Document, edited, judged
 from polypod.studio.frames import Focus, MotionMeter, pack_frame
 from polypod.studio.history import History
 from polypod.studio.meshes import ground_reach, pack_ground, pack_skin
+from polypod.studio.messages import (
+    clock_message,
+    document_message,
+    kinds_message,
+    tape_message,
+    verdict_message,
+    welcome_message,
+)
 from polypod.studio.overlays import Overlays
 from polypod.studio.stage import Stage, judge_push
 from polypod.studio.tape import Tape
@@ -41,7 +46,7 @@ class Conductor:
         self.scrubbed: int | None = None
         self.skins: dict[int, bytes] = {}
         self.grounds: dict[int, bytes] = {}
-        self._skin_numbers: dict[int, int] = {}
+        self.skin_numbers: dict[int, int] = {}
         self._counter = 0
         self._meter = MotionMeter()
         self._overlays = Overlays()
@@ -57,9 +62,14 @@ class Conductor:
     def greeting(self) -> list[dict[str, Any]]:
         """Return the messages that a new tab needs, in their order."""
         return [
-            self._welcome(), facts_of(self.stage.herd), self._kinds(), self._document(),
-            self._clock(), self._verdict(), self._tape(),
-        ]  # fmt: skip
+            welcome_message(self),
+            facts_of(self.stage.herd),
+            kinds_message(self),
+            document_message(self),
+            clock_message(self),
+            verdict_message(self),
+            tape_message(self),
+        ]
 
     def say(self, message: dict[str, Any]) -> None:
         """Send a message to all tabs."""
@@ -67,66 +77,7 @@ class Conductor:
 
     def tell_clock(self) -> None:
         """Say how time goes."""
-        self.say(self._clock())
-
-    def _welcome(self) -> dict[str, Any]:
-        return {
-            "is": "welcome",
-            "version": __version__,
-            "rigs": list(BUILT_IN),
-            "generators": {name: generator_keys(name) for name in GENERATORS},
-            "given": list(self.stage.given),
-            "fps": 60,
-        }
-
-    def _kinds(self) -> dict[str, Any]:
-        kinds = [
-            {
-                "skin": self._skin_numbers[id(herd.morphology)],
-                "count": herd.count,
-                "joints": len(herd.morphology.joint_node) + 1,
-                "name": herd.morphology.name,
-            }
-            for herd in self.stage.herds
-        ]
-        return {"is": "kinds", "kinds": kinds, "ground": max(self.grounds)}
-
-    def _document(self) -> dict[str, Any]:
-        return {
-            "is": "document",
-            "document": self.stage.document,
-            "can_undo": self.history.can_undo,
-            "can_redo": self.history.can_redo,
-        }
-
-    def _clock(self) -> dict[str, Any]:
-        return {
-            "is": "clock", "playing": self.playing, "rate": self.rate, "behind": self.behind,
-            "time": self.stage.world.time, "frame": self.number,
-        }  # fmt: skip
-
-    def _verdict(self) -> dict[str, Any]:
-        check = self.stage.verdict()
-        return {
-            "is": "verdict",
-            "verdict": check.verdict,
-            "sentence": check.sentence,
-            "reasons": list(check.reasons),
-            "body_peak": float(check.body_peak),
-            "foot_peak": [float(v) for v in check.foot_peak],
-            "flight": float(check.flight),
-            "speed": float(check.speed),
-        }
-
-    def _tape(self) -> dict[str, Any]:
-        tape = self.tape
-        return {
-            "is": "tape",
-            "recording": tape is not None and tape.recording,
-            "frames": 0 if tape is None else len(tape.frames),
-            "seconds": 0.0 if tape is None else tape.seconds,
-            "scrub": self.scrubbed,
-        }
+        self.say(clock_message(self))
 
     # Time.
 
@@ -158,10 +109,12 @@ class Conductor:
         if tape is not None and tape.recording and dt is not None:
             if tape.full or not tape.fits(stage.world):
                 self._stop_tape()
+                why = "the tape is full" if tape.full else "there are other obstacles now"
+                self.say({"is": "trouble", "why": f"recording has ended: {why}"})
             else:
                 tape.add(frame)
                 if len(tape.frames) % 15 == 1:
-                    self.say(self._tape())
+                    self.say(tape_message(self))
         self._tell(self._event("frame", frame))
 
     def watch_overlays(self, overlays: frozenset[str]) -> None:
@@ -182,14 +135,14 @@ class Conductor:
     def _renew_skins(self) -> None:
         for herd in self.stage.herds:
             key = id(herd.morphology)
-            if key not in self._skin_numbers:
+            if key not in self.skin_numbers:
                 self._counter += 1
-                self._skin_numbers[key] = self._counter
+                self.skin_numbers[key] = self._counter
                 self.skins[self._counter] = pack_skin(herd.morphology)
         walking = {id(herd.morphology) for herd in self.stage.herds}
-        for key, number in list(self._skin_numbers.items()):
+        for key, number in list(self.skin_numbers.items()):
             if key not in walking:
-                del self._skin_numbers[key]
+                del self.skin_numbers[key]
                 self.skins.pop(number, None)
 
     def _renew_ground(self) -> None:
@@ -207,7 +160,7 @@ class Conductor:
         here = self.stage.herd.state.position[0]
         if max(abs(here[0] - centre[0]), abs(here[2] - centre[2])) > GONE * reach:
             self._renew_ground()
-            self.say(self._kinds())
+            self.say(kinds_message(self))
 
     def take(self, document: Document, gesture: str | None = None, keep: bool = True) -> None:
         """Take another document, judged; `keep` the one before for undo.
@@ -223,9 +176,9 @@ class Conductor:
             self.history.note(before, gesture)
         if applied.creature or applied.ground:
             self._begin_anew(applied.creature)
-        self.say(self._document())
+        self.say(document_message(self))
         if any(document[k] != before[k] for k in ("creature", "gait", "command")):
-            self.say(self._verdict())
+            self.say(verdict_message(self))
         if not self.playing or applied.creature:
             self._send_frame()
 
@@ -238,7 +191,7 @@ class Conductor:
         self._renew_ground()
         if creature:
             self.say(facts_of(self.stage.herd))
-        self.say(self._kinds())
+        self.say(kinds_message(self))
 
     # Orders.
 
@@ -306,12 +259,12 @@ class Conductor:
             self.tape.add(self._last)
         elif self.tape is not None:
             self.tape.recording = False
-        self.say(self._tape())
+        self.say(tape_message(self))
 
     def _stop_tape(self) -> None:
         if self.tape is not None:
             self.tape.recording = False
-        self.say(self._tape())
+        self.say(tape_message(self))
 
     def _do_scrub(self, order: dict[str, Any]) -> None:
         index = order["frame"]
@@ -319,7 +272,7 @@ class Conductor:
             if self.scrubbed is not None:
                 self.scrubbed = None
                 self._send_frame()
-                self.say(self._tape())
+                self.say(tape_message(self))
             return
         if self.tape is None:
             raise SettingError("nothing is recorded; press record and let it walk for a while")
@@ -328,7 +281,7 @@ class Conductor:
         self._stop_tape()
         self.scrubbed = index
         self._tell(self._event("frame", content))
-        self.say(self._tape())
+        self.say(tape_message(self))
 
     def _do_watch(self, order: dict[str, Any]) -> None:
         row = order["creature"]
