@@ -16,18 +16,14 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from polypod.errors import PolypodError
 from polypod.studio.guard import LARGEST_DOCUMENT, LARGEST_ORDER, RefusalError, parse_order
+from polypod.studio.orders import FOR_ALL, ORDERS, judge_order
 from polypod.studio.outbox import Outbox, Telling
 from polypod.studio.seam import Running, Told
 from polypod.studio.tab import MOST_ORDERS, Tab, as_json
 
-# Orders that change nothing are for all tabs, the others for the one that drives.
-FOR_ALL = ("ack", "see", "drive", "watch")
-FOR_DRIVER = (
-    "edit", "undo", "redo", "open", "gait", "clock", "push", "restart", "record", "scrub",
-)  # fmt: skip
-SIZES = {do: LARGEST_DOCUMENT if do == "open" else LARGEST_ORDER for do in (*FOR_ALL, *FOR_DRIVER)}
-OVERLAYS = ("cells", "candidates", "paths", "hull", "spine", "limits")
+SIZES = {do: LARGEST_DOCUMENT if do == "open" else LARGEST_ORDER for do in ORDERS}
 MOST_TABS = 16
 
 POLICY_VIOLATION = 1008
@@ -62,7 +58,14 @@ class Hub:
             heard, self._heard = self._heard, Outbox()
         while (telling := heard.take()) is not None:
             for tab in self.tabs:
-                tab.put(telling)
+                tab.put(self._for(tab, telling))
+
+    def _for(self, tab: Tab, telling: Telling) -> Telling:
+        """Return what is told to a tab: a welcome says whether it drives."""
+        if telling.kind == "text" and telling.content.get("is") == "welcome":
+            content = {**telling.content, "drives": tab is self.driver}
+            return telling._replace(content=content)
+        return telling
 
     async def serve(self, websocket: WebSocket) -> None:
         """Stay with a page from the moment it connects until it leaves."""
@@ -76,9 +79,8 @@ class Hub:
         try:
             # Whatever is told while the greeting is put together waits behind it.
             for message in await asyncio.to_thread(self.runner.greeting):
-                if message.get("is") == "welcome":
-                    message = {**message, "drives": tab is self.driver}
-                await websocket.send_text(as_json(message))
+                telling = self._for(tab, Telling("text", message))
+                await websocket.send_text(as_json(telling.content))
             tasks = [
                 asyncio.create_task(self._read(websocket, tab)),
                 asyncio.create_task(self._write(websocket, tab)),
@@ -163,19 +165,19 @@ class Hub:
     def _take(self, tab: Tab, order: dict[str, Any]) -> None:
         """Do an order, or hand it to the simulation."""
         try:
+            judge_order(order)
             match order["do"]:
                 case "ack":
-                    tab.acknowledge(_frame(order))
+                    tab.acknowledge(order["frame"])
                 case "see":
-                    tab.see(_overlays(order))
+                    tab.see(frozenset(order["overlays"]))
                     self._watch()
                 case "drive":
-                    _only(order, ())
                     self._drive(tab)
                 case _:
                     self._hand_over(tab, order)
                     return
-        except RefusalError as refusal:
+        except PolypodError as refusal:
             _answer(tab, order, str(refusal))
         else:
             _answer(tab, order, None)
@@ -211,26 +213,3 @@ def _answer(tab: Tab, order: dict[str, Any], why: str | None) -> None:
         tab.tell(said | {"id": order["id"]})
     elif why is not None:
         tab.tell(said)
-
-
-def _only(order: dict[str, Any], keys: tuple[str, ...]) -> None:
-    unknown = sorted(set(order) - {"do", "id", *keys})
-    if unknown:
-        valid = f"valid is {', '.join(keys)}" if keys else "it has none of its own"
-        raise RefusalError(f"{order['do']}: {unknown[0][:40]!r} is no key of it; {valid}")
-
-
-def _frame(order: dict[str, Any]) -> int:
-    _only(order, ("frame",))
-    frame = order.get("frame")
-    if not isinstance(frame, int) or isinstance(frame, bool) or frame < 0:
-        raise RefusalError("ack: frame: must be the number of a frame")
-    return frame
-
-
-def _overlays(order: dict[str, Any]) -> frozenset[str]:
-    _only(order, ("overlays",))
-    names = order.get("overlays")
-    if not isinstance(names, list) or not all(name in OVERLAYS for name in names):
-        raise RefusalError(f"see: overlays: must be a list of names out of {', '.join(OVERLAYS)}")
-    return frozenset(names)

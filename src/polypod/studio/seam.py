@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future
-from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 T = TypeVar("T")
@@ -26,26 +25,6 @@ class Told(Protocol):
         """The arrays' name; empty for others."""
 
 
-class Staged(Protocol):
-    """The stage between two frames, where it may be read and changed."""
-
-    @property
-    def document(self) -> dict[str, Any]:
-        """What is asked for."""
-
-    def open_scene(self, text: str, folder: Path | None) -> None:
-        """Take a scene file's terrain, obstacles and creature into the document."""
-
-    def scene_toml(self) -> str:
-        """Return what is asked for as a scene file."""
-
-    def walk_glb(self) -> bytes:
-        """Return what was recorded of the first creature, as a GLB."""
-
-    def walk_npz(self) -> bytes:
-        """Return what was recorded of the first creature, as a record."""
-
-
 class Running(Protocol):
     """The simulation's thread, as `polypod.studio.runner` has it."""
 
@@ -59,7 +38,7 @@ class Running(Protocol):
         """Put an order in the queue; the answer is None when it is done, or why it is not."""
 
     def call(self, work: Callable[[Any], T]) -> Future[T]:
-        """Have work done on the stage between two frames."""
+        """Have the conductor give something between two frames."""
 
     def listen(self, hear: Callable[[Any], None]) -> Callable[[], None]:
         """Have what is for every tab told to `hear`, in the thread; returns how to stop it."""
