@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -17,8 +17,6 @@ def value_text(value: Any) -> str:
         return repr(value)
     if isinstance(value, str):
         return f'"{"".join(_letter(c) for c in value)}"'
-    if isinstance(value, Mapping):
-        return f"{{ {', '.join(pairs(value))} }}"
     return f"[{', '.join(value_text(item) for item in value)}]"
 
 
@@ -27,15 +25,10 @@ def key_text(key: str) -> str:
     return key if BARE.fullmatch(key) else value_text(key)
 
 
-def pairs(values: Mapping[str, Any]) -> list[str]:
-    """Return `key = value` for each that is not None."""
-    return [f"{key_text(k)} = {value_text(v)}" for k, v in values.items() if v is not None]
-
-
-def table(header: str, values: Mapping[str, Any], *comments: str) -> str:
-    """Return a table with its header, empty for the top of a file, and comments above its keys."""
-    lines: Iterable[str] = [f"# {comment}" for comment in comments]
-    return "\n".join([*([header] if header else []), *lines, *pairs(values), ""])
+def table(header: str, values: Mapping[str, Any]) -> str:
+    """Return a table with its header; it is empty for the top of a file."""
+    lines = [f"{key_text(key)} = {value_text(value)}" for key, value in values.items()]
+    return "\n".join([*([header] if header else []), *lines, ""])
 
 
 def _letter(c: str) -> str:
