@@ -35,7 +35,7 @@ LONGEST_WORD = 1000  # characters of a reason: a stranger's joints may have name
 ASKED = ("rig", "leg", "spine", "forward", "height")
 # What sentences for the command line end with.
 OPTIONS = re.compile(
-    r"; --[a-z-]+( HIP:FOOT| J,J,\.\.\.)? (says otherwise|names (others|all legs|one))"
+    r"; --[a-z-]+( HIP:FOOT| J,J,\.\.\.)? (says otherwise|names (another|others|all legs|one))"
 )
 NAMING = re.compile(r" with --leg HIP:FOOT| \(--height\)")
 
