@@ -251,6 +251,17 @@ def test_the_oldest_unused_rig_goes(studio: Served, monkeypatch: Any) -> None:
     assert {rigs.name(third), rigs.name(fourth)} == {"3.glb", "4.glb"}
 
 
+def test_the_rig_that_walks_stays(studio: Served, monkeypatch: Any) -> None:
+    monkeypatch.setattr(rigs_given, "MOST_UPLOADS", 2)
+    walks = studio.rigs.take(bomb(extras=0), "walks.glb")
+    studio.runner.conductor.stage.document["crowd"] = [{"rig": walks, "count": 2}]
+    for n in (1, 2, 3):
+        answer = studio.client.post("/rig", headers=OURS, content=bomb(extras=n))
+        assert answer.status_code == 200
+    assert len(kept(studio)) == 2
+    assert studio.rigs.name(walks) == "walks.glb"
+
+
 def test_uploads_go_with_the_studio() -> None:
     rigs = GivenRigs()
     file = Path(rigs.find(rigs.take(spider(), "s.glb")))

@@ -93,7 +93,7 @@ class GivenRigs:
         return rig
 
     def use(self, rigs: Collection[str]) -> None:
-        """Say which rigs may be asked for again, by the document or by undo: they stay."""
+        """Say which rigs the document has: they stay."""
         with self._lock:
             self._in_use = frozenset(rigs)
 
