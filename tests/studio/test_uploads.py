@@ -49,7 +49,8 @@ def test_a_rig_is_taken_in_and_what_was_found_is_said(studio: Served) -> None:
     digest = hashlib.sha256(data).hexdigest()
     assert found["rig"] == f"upload:{digest}"
     assert found["name"] == "My Spider.glb"
-    assert kept(studio) == [f"{digest}.glb"]
+    assert kept(studio) == [digest]
+    assert Path(studio.rigs.find(found["rig"])).name == "My Spider.glb"
     assert found["walks"] is True
     assert found["forward"] == "+z"
     assert len(found["legs"]) == 8
@@ -238,6 +239,7 @@ def test_the_oldest_unused_rig_goes(studio: Served, monkeypatch: Any) -> None:
     first = rigs.take(bomb(extras=1), "1.glb")
     second = rigs.take(bomb(extras=2), "2.glb")
     assert rigs.take(bomb(extras=1), "one.glb") == first
+    assert Path(rigs.find(first)).name == rigs.name(first) == "one.glb"
     third = rigs.take(bomb(extras=3), "3.glb")
     assert len(kept(studio)) == 2
     assert Path(rigs.find(first)).is_file()
@@ -267,7 +269,7 @@ def test_uploads_go_with_the_studio() -> None:
     file = Path(rigs.find(rigs.take(spider(), "s.glb")))
     assert file.is_file()
     rigs.close()
-    assert not file.parent.exists()
+    assert not file.parent.parent.exists()
 
 
 @pytest.mark.parametrize(
@@ -275,6 +277,7 @@ def test_uploads_go_with_the_studio() -> None:
     [
         ("fox.glb", "fox.glb"), ("/etc/passwd", "passwd.glb"), ("..\\..\\a.b.glb", "a.b.glb"),
         ("", "rig.glb"), ("..", "rig.glb"), ("a\0b\n.glb", "ab.glb"), ("<img>.glb", "img.glb"),
+        ("CON.glb", "rig.glb"), ("lpt1.x.glb", "rig.glb"), ("a;$(b)&c.glb", "abc.glb"),
         ("x" * 500, "x" * 75 + ".glb"), ("Füchsin.gltf", "Füchsin.glb"),
     ],
 )  # fmt: skip
