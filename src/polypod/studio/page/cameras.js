@@ -121,7 +121,9 @@ export class Cameras {
     if (this.eased) this.glide();
     controls.update();
     const distance = camera.position.distanceTo(controls.target);
-    camera.near = Math.max(0.02 * distance, distance - 40 * this.size);
+    // From a side nothing that stands between hides the creature.
+    const before = CAMERAS[this.mode].from ? 5 : 40;
+    camera.near = Math.max(0.02 * distance, distance - before * this.size);
     camera.far = distance + 400 * this.size + 20 * distance;
     camera.updateProjectionMatrix();
     this.direction.subVectors(camera.position, controls.target).normalize();

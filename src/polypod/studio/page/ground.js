@@ -5,6 +5,9 @@ import { decodeArrays } from "/page/frames.js";
 import { linear } from "/page/skinning.js";
 import { Relief } from "/page/relief.js";
 
+// The ground is a little darker than in print: the page is dark, and what is drawn on it is bright.
+const TONE = 0xa9afb5;
+
 const DECLARE = "varying vec3 groundPlace;\n#include <common>";
 const LINES = `#include <color_fragment>
   {
@@ -13,11 +16,11 @@ const LINES = `#include <color_fragment>
     vec2 far = abs(fract(place - 0.5) - 0.5) / width;
     vec2 fine = abs(fract(10.0 * place - 0.5) - 0.5) / (10.0 * width);
     // Lines that are closer together than a few pixels would only flicker.
-    float shown = 1.0 - smoothstep(0.1, 0.35, max(width.x, width.y));
+    float shown = 1.0 - smoothstep(0.04, 0.25, max(width.x, width.y));
     float fineShown = 1.0 - smoothstep(0.01, 0.035, max(width.x, width.y));
     float line = shown * (1.0 - smoothstep(0.6, 1.6, min(far.x, far.y)));
     float fineLine = fineShown * (1.0 - smoothstep(0.3, 1.2, min(fine.x, fine.y)));
-    diffuseColor.rgb *= (1.0 - 0.42 * line) * (1.0 - 0.13 * fineLine);
+    diffuseColor.rgb *= (1.0 - 0.36 * line) * (1.0 - 0.13 * fineLine);
   }`;
 
 export class Ground {
@@ -65,7 +68,7 @@ export class Ground {
   }
 
   material() {
-    const material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 1 });
+    const material = new THREE.MeshLambertMaterial({ color: TONE, vertexColors: true });
     material.onBeforeCompile = (shader) => {
       shader.uniforms.grid = this.grid;
       shader.vertexShader = shader.vertexShader

@@ -13,11 +13,14 @@ const KNOB_PIXELS = 13;
 const REACH_MOUSE = 13; // pixels about a knob that still take it
 const REACH_TOUCH = 26;
 const RING_STEPS = 48;
-const RING_SIZE = 1.25; // of the way to the farthest corner
+const RING_SIZE = 1.45; // of the way to the farthest corner
+const STALK = 0.4; // of the ring's radius: how far over the top the knob for the height is
+const SMALL = 0.16; // of the obstacle's size on the screen: knobs take no more, so it can be held
 const TURN_SNAP = Math.PI / 12; // with Ctrl
 
 // Corners of the unit box, and its edges as pairs of them.
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7].map((n) => [n & 1 ? 0.5 : -0.5, n & 2 ? 0.5 : -0.5, n & 4 ? 0.5 : -0.5]);
+const UPPER = [2, 3, 6, 7];
 const EDGES = CORNERS.flatMap((_, i) => [1, 2, 4].filter((bit) => !(i & bit)).map((bit) => [i, i | bit]));
 
 export class Handles {
@@ -93,11 +96,12 @@ export class Handles {
     for (const [i, j] of EDGES) lines.between(corners, i, j);
     if (this.canTurn) this.drawRing(mesh);
     if (!this.canResize) return;
-    for (let i = 0; i < 8; i++) {
+    for (const i of UPPER) {
       knobs.addHex(corners[3 * i], corners[3 * i + 1], corners[3 * i + 2], 0, KNOB, 1, SQUARE);
     }
-    this.topPlace(place);
-    knobs.addHex(place.x, place.y, place.z, 0, OUTLINE, 1, DISC);
+    const knob = this.heightPlace(place);
+    lines.add(knob.x, knob.y - STALK * this.ringRadius, knob.z, knob.x, knob.y, knob.z);
+    knobs.addHex(knob.x, knob.y, knob.z, 0, OUTLINE, 1, DISC);
   }
 
   get canResize() {
@@ -108,12 +112,11 @@ export class Handles {
     return this.obstacle?.shape !== "sphere";
   }
 
-  // The middle of its upper side.
-  topPlace(out) {
+  // The knob for its height, over the middle of its upper side.
+  heightPlace(out) {
     const { corners } = this;
-    out.set(0, 0, 0);
-    for (let i = 0; i < 8; i++) {
-      if (!(i & 2)) continue;
+    out.set(0, STALK * this.ringRadius, 0);
+    for (const i of UPPER) {
       out.x += corners[3 * i] / 4;
       out.y += corners[3 * i + 1] / 4;
       out.z += corners[3 * i + 2] / 4;
@@ -146,13 +149,22 @@ export class Handles {
     this.measure(this.mesh); // where it is now, not where it was drawn last
     const reach = event.pointerType === "touch" ? REACH_TOUCH : REACH_MOUSE;
     if (this.canResize) {
-      if (this.rays.pixelsFrom(this.topPlace(this.place), event) < reach) return { part: "height" };
-      for (let i = 0; i < 8; i++) {
-        const corner = new THREE.Vector3().fromArray(this.corners, 3 * i);
-        if (this.rays.pixelsFrom(corner, event) < reach) return { part: "corner", corner: i };
+      const { rays, place } = this;
+      if (rays.pixelsFrom(this.heightPlace(place), event) < reach) return { part: "height" };
+      const least = Math.min(reach, Math.max(SMALL * this.pixelsWide(), 5));
+      for (const i of UPPER) {
+        place.fromArray(this.corners, 3 * i);
+        if (rays.pixelsFrom(place, event) < least) return { part: "corner", corner: i };
       }
     }
     return this.canTurn && this.onRing(event, reach) ? { part: "ring" } : null;
+  }
+
+  // How large it looks: between two opposite corners of its upper side.
+  pixelsWide() {
+    const [ax, ay] = this.rays.pixelsOf(this.place.fromArray(this.corners, 3 * UPPER[0]));
+    const [bx, by] = this.rays.pixelsOf(this.place.fromArray(this.corners, 3 * UPPER[3]));
+    return Math.hypot(bx - ax, by - ay);
   }
 
   onRing(event, reach) {

@@ -21,10 +21,8 @@ export class Obstacles {
     this.meshes = [];
     this.keys = [];
     this.out = new Float32Array(7);
-    this.crate = new THREE.MeshStandardMaterial({ color: CRATE, roughness: 0.9 });
-    this.forbidden = new THREE.MeshStandardMaterial({
-      color: 0xffffff, map: stripes(), roughness: 0.9,
-    });
+    this.crate = new THREE.MeshLambertMaterial({ color: CRATE });
+    this.forbidden = new THREE.MeshLambertMaterial({ map: stripes() });
     store.on("document", ({ document }) => this.match(document.obstacle));
   }
 

@@ -153,13 +153,16 @@ export class Rays {
     return nearest;
   }
 
-  // How far a place of the world is from an event on the screen, pixels.
-  pixelsFrom(place, { clientX, clientY }) {
+  // Where a place of the world is on the page, [x, y] in pixels; far off where it is behind the eye.
+  pixelsOf(place) {
     const frame = this.canvas.getBoundingClientRect();
-    this.b.copy(place).project(this.cameras.camera);
-    if (this.b.z > 1) return Infinity;
-    const x = frame.left + ((this.b.x + 1) * frame.width) / 2;
-    const y = frame.top + ((1 - this.b.y) * frame.height) / 2;
+    const { x, y, z } = this.b.copy(place).project(this.cameras.camera);
+    if (z > 1) return [Infinity, Infinity];
+    return [frame.left + ((x + 1) * frame.width) / 2, frame.top + ((1 - y) * frame.height) / 2];
+  }
+
+  pixelsFrom(place, { clientX, clientY }) {
+    const [x, y] = this.pixelsOf(place);
     return Math.hypot(clientX - x, clientY - y);
   }
 }

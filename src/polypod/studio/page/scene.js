@@ -16,11 +16,17 @@ import { Toolbar } from "/page/toolbar.js";
 import { Tools } from "/page/tools.js";
 
 const MOST_PIXELS = 2; // of the picture for one of the page's: more is work that nobody sees
+const SLOW = 24; // pictures a second
+const JUDGED_EVERY = 3; // s
+const PRINT = 2; // pixels of a picture that is kept, for one of the view's
 const AHEAD = 1.5; // radii of the creature: nearer than that, a new thing would be under it
 
 export function mountScene(element, store) {
   addStyle("scene.css");
-  return new Scene(element, store);
+  const scene = new Scene(element, store);
+  // For whoever measures or tries the page from outside, as `polypod` is.
+  store.scene = scene;
+  return scene;
 }
 
 class Scene {
@@ -28,7 +34,9 @@ class Scene {
     this.element = element;
     this.store = store;
     this.drawn = 0; // pictures, for whoever measures
-    this.renderer = makeRenderer();
+    this.software = isSoftware();
+    this.fineness = this.software ? 1 : Math.min(devicePixelRatio, MOST_PIXELS);
+    this.renderer = makeRenderer(this.software);
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
@@ -36,7 +44,8 @@ class Scene {
     element.append(this.canvas);
     this.scene = new THREE.Scene();
     this.makeParts();
-    this.lastDrawn = performance.now();
+    this.lastDrawn = this.judged = performance.now();
+    this.judgedDrawn = 0;
     this.shown = new THREE.Vector3(); // the middle of what the sun lights
     new ResizeObserver(() => this.resize()).observe(element);
     this.resize();
@@ -46,7 +55,7 @@ class Scene {
   makeParts() {
     const { scene, store, canvas, element } = this;
     this.playback = new Playback(store);
-    this.sky = new Sky(scene, isSoftware(this.renderer) ? 1024 : 2048);
+    this.sky = new Sky(scene, 2048);
     this.ground = new Ground(scene, store);
     this.creatures = new Creatures(scene, store);
     this.obstacles = new Obstacles(scene, store);
@@ -68,7 +77,7 @@ class Scene {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(isSoftware(this.renderer) ? 1 : Math.min(devicePixelRatio, MOST_PIXELS));
+    this.renderer.setPixelRatio(this.fineness);
     this.renderer.setSize(width, height);
     // Lines are as wide on a fine screen as on a coarse one.
     resolution.value.set(width, height);
@@ -89,6 +98,20 @@ class Scene {
     this.handles.update();
     this.renderer.render(this.scene, this.cameras.camera);
     this.drawn += 1;
+    this.spare(now);
+  }
+
+  // A weak GPU before a fine screen: rather fewer pixels than fewer pictures.
+  spare(now) {
+    const seconds = (now - this.judged) / 1000;
+    if (seconds < JUDGED_EVERY) return;
+    const rate = (this.drawn - this.judgedDrawn) / seconds;
+    this.judged = now;
+    this.judgedDrawn = this.drawn;
+    // What was hidden or asleep in between tells nothing.
+    if (rate < 1 || rate > SLOW || this.fineness <= 1) return;
+    this.fineness = Math.max(1, 0.75 * this.fineness);
+    this.resize();
   }
 
   look({ herd, row }, elapsed) {
@@ -151,30 +174,41 @@ class Scene {
     return [centre.x + ahead * Math.sin(heading), centre.z + ahead * Math.cos(heading)];
   }
 
+  // Where a place of the world is on the page, [x, y] in pixels.
+  pixelsOf(place) {
+    return this.rays.pixelsOf(new THREE.Vector3(...place));
+  }
+
   // The view as a PNG.
   picture() {
+    this.renderer.setPixelRatio(PRINT);
     // Drawn and read in one go: the browser may forget the picture after that.
     this.renderer.render(this.scene, this.cameras.camera);
-    return new Promise((resolve, reject) => {
+    const coming = new Promise((resolve, reject) => {
       this.canvas.toBlob((blob) => (
         blob ? resolve(blob) : reject(new Error("the browser made no picture of the view"))
       ), "image/png");
     });
+    this.renderer.setPixelRatio(this.fineness);
+    return coming;
   }
 }
 
-function makeRenderer() {
-  const renderer = new THREE.WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+function makeRenderer(software) {
+  const renderer = new THREE.WebGLRenderer({
+    antialias: !software, powerPreference: "high-performance",
+  });
   renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = THREE.PCFShadowMap;
+  renderer.shadowMap.type = software ? THREE.BasicShadowMap : THREE.PCFShadowMap;
   renderer.toneMapping = THREE.NoToneMapping;
   return renderer;
 }
 
-// Whether pictures are drawn without a GPU: then there is less of them to draw.
-function isSoftware(renderer) {
-  const gl = renderer.getContext();
-  const named = gl.getExtension("WEBGL_debug_renderer_info");
+// Whether pictures are drawn without a GPU. Then smooth edges would take most of the time.
+function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const named = gl?.getExtension("WEBGL_debug_renderer_info");
   const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

@@ -2,7 +2,7 @@
 
 import { THREE } from "three";
 
-const SKY = 0x8fa3b5;
+const SKY = 0x66788a;
 const TOWARD_SUN = new THREE.Vector3(0.5, 1.0, 0.35).normalize();
 
 export class Sky {

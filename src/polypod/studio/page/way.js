@@ -3,7 +3,7 @@
 import { Lines } from "/page/lines.js";
 
 const CLOSEST = 0.1; // leg lengths between two points of the line
-const OFF = 0.1; // leg lengths that the path may be off the line
+const OFF = 0.06; // leg lengths that the path may be off the line
 const SMOOTHINGS = 4;
 const MOST = 200; // points of a path
 
