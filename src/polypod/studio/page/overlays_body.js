@@ -1,5 +1,6 @@
-// What is drawn of the creature in focus in every picture: targets, way, trajectory, bones, spine.
+// What is drawn of the creature in focus in every picture: targets, way, trajectory.
 
+import { InsideOverlays } from "/page/overlays_inside.js";
 import { Lines } from "/page/lines.js";
 import { DIAMOND, DISC, Marks, RING } from "/page/marks.js";
 
@@ -10,17 +11,13 @@ const WAY = "#6cb4ee";
 export class BodyOverlays {
   constructor(scene, store, creatures) {
     this.store = store;
-    this.creatures = creatures;
     this.heightAt = () => 0; // of the ground, given by the scene
     this.marks = new Marks(scene, { order: 8, leastPixels: 5 });
     this.lines = new Lines(scene, { width: 2, order: 8 });
     this.trailLines = new Lines(scene, { width: 3, over: true });
-    this.bones = new Lines(scene, { width: 2.5, over: true });
-    this.spine = new Lines(scene, { width: 5, over: true, order: 11 });
-    this.nodes = new Marks(scene, { over: true, facing: true, leastPixels: 6, order: 12 });
+    this.inside = new InsideOverlays(scene, store, creatures);
     this.trail = new Float32Array(4 * TRAIL_POINTS); // x, y, z, time; a ring
     this.trailCount = 0; // ever written
-    this.joints = new Float32Array(0); // [J, 3] world
   }
 
   forget() {
@@ -49,7 +46,6 @@ export class BodyOverlays {
 
   update(playback, shown) {
     const leg = this.store.creature?.leg_length ?? 1;
-    const focus = this.creatures.focus(playback.to);
     this.marks.clear();
     this.lines.clear();
     if (shown.has("targets")) this.drawTargets(playback, leg);
@@ -59,19 +55,7 @@ export class BodyOverlays {
     this.trailLines.clear();
     if (shown.has("trajectory")) this.drawTrail(playback.playhead);
     this.trailLines.commit();
-    this.bones.clear();
-    this.spine.clear();
-    this.nodes.clear();
-    const rest = this.store.creature?.rest;
-    // Bones are known of the first kind alone.
-    if (focus && rest && playback.to.focus.kind === 0 && (shown.has("bones") || shown.has("spine"))) {
-      this.poseJoints(focus, rest);
-      if (shown.has("bones")) this.drawBones(leg);
-      if (shown.has("spine")) this.drawSpine(leg);
-    }
-    this.bones.commit();
-    this.spine.commit();
-    this.nodes.commit();
+    this.inside.update(playback, shown);
   }
 
   drawTargets({ to }, leg) {
@@ -132,46 +116,6 @@ export class BodyOverlays {
       this.trailLines.add(
         this.trail[a], this.trail[a + 1], this.trail[a + 2],
         this.trail[b], this.trail[b + 1], this.trail[b + 2],
-      );
-    }
-  }
-
-  // Where joints are: q r q* + t of each joint's place at rest.
-  poseJoints({ herd, row }, rest) {
-    const count = Math.min(rest.length, herd.joints);
-    if (this.joints.length !== 3 * count) this.joints = new Float32Array(3 * count);
-    const { poses } = herd;
-    for (let j = 0; j < count; j++) {
-      const o = row * herd.stride + 8 * j;
-      const qx = poses[o], qy = poses[o + 1], qz = poses[o + 2], qw = poses[o + 3];
-      const r = rest[j];
-      const tx = 2 * (qy * r[2] - qz * r[1]);
-      const ty = 2 * (qz * r[0] - qx * r[2]);
-      const tz = 2 * (qx * r[1] - qy * r[0]);
-      this.joints[3 * j] = r[0] + qw * tx + qy * tz - qz * ty + poses[o + 4];
-      this.joints[3 * j + 1] = r[1] + qw * ty + qz * tx - qx * tz + poses[o + 5];
-      this.joints[3 * j + 2] = r[2] + qw * tz + qx * ty - qy * tx + poses[o + 6];
-    }
-  }
-
-  drawBones(leg) {
-    const { joints } = this;
-    this.bones.colour("#e6ebf0", 0.9);
-    for (const [i, j] of this.store.creature.bones) this.bones.between(joints, i, j);
-    for (let j = 0; j < joints.length; j += 3) {
-      this.nodes.addHex(joints[j], joints[j + 1], joints[j + 2], 0.012 * leg, "#e6ebf0", 1, DISC);
-    }
-  }
-
-  drawSpine(leg) {
-    const { joints } = this;
-    const rows = this.store.creature.spine;
-    this.spine.colour("#111111", 0.95);
-    for (let i = 0; i + 1 < rows.length; i++) this.spine.between(joints, rows[i], rows[i + 1]);
-    for (const row of rows) {
-      const at = 3 * row;
-      this.nodes.addHex(
-        joints[at], joints[at + 1], joints[at + 2], 0.035 * leg, "#2f6fe4", 1, DISC,
       );
     }
   }
