@@ -17,8 +17,8 @@ from polypod.herd import Herd
 from polypod.jobs.cast import comfortable_speed
 from polypod.morphology.types import Morphology
 from polypod.report.record import bones
-from polypod.studio.anatomy import limit_fans, pelvis_nodes, spine_line
 from polypod.report.scenery import foot_colours
+from polypod.studio.anatomy import limit_fans, pelvis_nodes, spine_line
 from polypod.studio.document import SETTINGS, Document
 
 # How much farther than the gait's top speed a speed may be asked for, and how high feet may be
