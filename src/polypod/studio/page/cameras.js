@@ -9,12 +9,13 @@ const EASE = 260; // ms to frame the creature
 const TURN_TIME = 0.35; // s in which side views follow a turn
 const RISE_TIME = 0.4; // s in which views follow the body up and down, so that they do not bob
 
-// Title, what it does, and for side views from where: [left, up, forward] of the creature.
+// Title, what it does, and for side views from where: [left, up, forward] of the creature, a
+// little from above, so that the ground is seen.
 export const CAMERAS = {
   follow: { title: "Follow", hint: "keeps its distance while the creature walks" },
   orbit: { title: "Orbit", hint: "stays where it is" },
-  side: { title: "Side", hint: "from its left", from: [1, 0, 0] },
-  front: { title: "Front", hint: "from ahead of it", from: [0, 0, 1] },
+  side: { title: "Side", hint: "from its left", from: [1, 0.06, 0] },
+  front: { title: "Front", hint: "from ahead of it", from: [0, 0.06, 1] },
   // A little from behind, so that ahead is up.
   top: { title: "Top", hint: "from above, ahead is up", from: [0, 1, -1e-3] },
 };
@@ -36,6 +37,8 @@ export class Cameras {
     this.lastHeading = 0;
     this.direction = new THREE.Vector3(0.7, 0.45, 0.85).normalize(); // of the eye, from the target
     this.offset = new THREE.Vector3();
+    this.away = new THREE.Vector3();
+    this.curtain = new THREE.Plane(new THREE.Vector3(0, 1, 0), 1e9); // obstacles before it are not drawn
     this.eased = null;
     this.begun = false;
   }
@@ -121,12 +124,14 @@ export class Cameras {
     if (this.eased) this.glide();
     controls.update();
     const distance = camera.position.distanceTo(controls.target);
-    // From a side nothing that stands between hides the creature.
-    const before = CAMERAS[this.mode].from ? 5 : 40;
-    camera.near = Math.max(0.02 * distance, distance - before * this.size);
+    camera.near = Math.max(0.02 * distance, distance - 40 * this.size);
     camera.far = distance + 400 * this.size + 20 * distance;
     camera.updateProjectionMatrix();
     this.direction.subVectors(camera.position, controls.target).normalize();
+    // From a side no obstacle that stands between hides the creature.
+    const before = CAMERAS[this.mode].from ? 2 * this.size : 2 * distance;
+    this.offset.copy(this.centre).addScaledVector(this.direction, before);
+    this.curtain.setFromNormalAndCoplanarPoint(this.away.copy(this.direction).negate(), this.offset);
     this.lastCentre.copy(this.centre);
     this.lastHeading = this.heading;
   }

@@ -1,13 +1,24 @@
-// All creatures: a herd for each kind, each drawn in one call.
+// All creatures: a herd for each kind, drawn in two calls: those near by, and those that look small.
+// Who is out of sight is not drawn at all.
 
+import { THREE } from "three";
 import { blendPose } from "/page/playback.js";
 import { decodeArrays } from "/page/frames.js";
-import { herdMesh, poseTexture } from "/page/skinning.js";
+import { coarsened } from "/page/coarse.js";
+import { dropMesh, herdMesh, poseTexture, showRows } from "/page/skinning.js";
+
+const FINE = 1200; // vertices: with fewer there is no coarser skin
+const SHADOW = 3; // radii about a creature in which its shadow may still be seen
 
 export class Creatures {
-  constructor(scene, store) {
+  // `small`: how many pixels high a creature is drawn with its coarser skin.
+  constructor(scene, store, small) {
     this.scene = scene;
     this.store = store;
+    this.small = small;
+    this.frustum = new THREE.Frustum();
+    this.matrix = new THREE.Matrix4();
+    this.ball = new THREE.Sphere();
     this.herds = [];
     this.skins = new Map(); // N: promise of arrays
     store.on("kinds", ({ kinds }) => this.rebuild(kinds));
@@ -52,6 +63,33 @@ export class Creatures {
     }
   }
 
+  // Choose who is drawn, and how finely, in a picture of `height` pixels.
+  choose(camera, height) {
+    camera.updateMatrixWorld();
+    this.matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.frustum.setFromProjectionMatrix(this.matrix);
+    for (const herd of this.herds) if (herd.fine && herd.posed) this.chooseOf(herd, camera, height);
+  }
+
+  chooseOf(herd, camera, height) {
+    const { ball, frustum } = this;
+    const { fine, coarse } = herd;
+    const near = fine.geometry.getAttribute("row").array;
+    const far = coarse?.geometry.getAttribute("row").array;
+    let nearCount = 0, farCount = 0;
+    for (let c = 0; c < herd.count; c++) {
+      ball.center.fromArray(herd.poses, herd.bodyAt(c) + 4);
+      ball.radius = SHADOW * herd.radius;
+      if (!frustum.intersectsSphere(ball)) continue;
+      const distance = ball.center.distanceTo(camera.position);
+      const pixels = (herd.radius * height * camera.projectionMatrix.elements[5]) / distance;
+      if (far && pixels < this.small) far[farCount++] = c;
+      else near[nearCount++] = c;
+    }
+    showRows(fine, nearCount);
+    if (coarse) showRows(coarse, farCount);
+  }
+
   // Where the poses of the creature in focus begin in its herd's array, or null.
   focus(frame) {
     const herd = this.herds[frame.focus.kind];
@@ -69,7 +107,8 @@ class Herd {
     this.poses = this.texture.image.data; // [count, joints, 8]: quaternion, shift, spare
     this.stride = 8 * joints;
     this.arrays = null;
-    this.mesh = null;
+    this.fine = null; // meshes
+    this.coarse = null;
     this.posed = false;
     this.box = null; // [6] least and most of the skin at rest, body frame
     this.radius = 0; // m about the body that holds the skin
@@ -80,18 +119,16 @@ class Herd {
     this.box = boxOf(arrays.place.data);
     const [x0, y0, z0, x1, y1, z1] = this.box;
     this.radius = 0.5 * Math.hypot(x1 - x0, y1 - y0, z1 - z0);
-    this.mesh = herdMesh(arrays, this.texture, this.count);
-    this.mesh.visible = this.posed;
-    scene.add(this.mesh);
+    this.fine = herdMesh(arrays, this.texture, this.count);
+    scene.add(this.fine);
+    if (arrays.place.shape[0] < FINE) return;
+    this.coarse = herdMesh(coarsened(arrays, this.radius), this.texture, this.count);
+    scene.add(this.coarse);
   }
 
   drop(scene) {
     this.texture.dispose();
-    if (!this.mesh) return;
-    scene.remove(this.mesh);
-    this.mesh.geometry.dispose();
-    this.mesh.material.dispose();
-    this.mesh.customDepthMaterial.dispose();
+    for (const mesh of [this.fine, this.coarse]) if (mesh) dropMesh(scene, mesh);
   }
 
   update(from, to, share) {
@@ -100,7 +137,6 @@ class Herd {
     for (let i = 0; i < all; i++) blendPose(poses, 8 * i, from.pose, to.pose, i, share);
     this.texture.needsUpdate = true;
     this.posed = true;
-    if (this.mesh) this.mesh.visible = true;
   }
 
   // Where body `c` begins in `poses`: quaternion, and its place four further.

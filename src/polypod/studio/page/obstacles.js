@@ -26,6 +26,11 @@ export class Obstacles {
     store.on("document", ({ document }) => this.match(document.obstacle));
   }
 
+  // Leave out what lies before a plane.
+  clip(plane) {
+    this.crate.clippingPlanes = this.forbidden.clippingPlanes = [plane];
+  }
+
   // Make the meshes those of the document, and leave alone what did not change its shape.
   match(list) {
     while (this.meshes.length > list.length) this.remove(this.meshes.length - 1);

@@ -57,7 +57,7 @@ class Scene {
     this.playback = new Playback(store);
     this.sky = new Sky(scene, 2048);
     this.ground = new Ground(scene, store);
-    this.creatures = new Creatures(scene, store);
+    this.creatures = new Creatures(scene, store, this.software ? 130 : 60);
     this.obstacles = new Obstacles(scene, store);
     this.overlays = new Overlays(scene, store, this.creatures);
     this.overlays.body.heightAt = (x, z) => this.heightAt(x, z);
@@ -65,6 +65,8 @@ class Scene {
     const note = (text, event) => this.toolbar.note(text, event);
     note("");
     this.cameras = new Cameras(canvas);
+    this.renderer.localClippingEnabled = true;
+    this.obstacles.clip(this.cameras.curtain);
     this.rays = new Rays(this.cameras, canvas, this);
     this.handles = new Handles(scene, store, this.obstacles, this.ground, this.rays, note);
     this.tools = new Tools({
@@ -93,6 +95,7 @@ class Scene {
     this.obstacles.update(this.playback);
     const focus = this.creatures.focus(this.playback.to);
     if (focus) this.look(focus, elapsed);
+    this.creatures.choose(this.cameras.camera, this.canvas.height);
     this.tools.hover();
     this.overlays.update(this.playback);
     this.handles.update();

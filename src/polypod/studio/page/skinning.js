@@ -1,10 +1,11 @@
-// Skinning of a whole herd in one draw call: each instance finds its joints' poses in its own row
-// of a float texture, two texels a joint: a quaternion, and a shift.
+// Skinning of a whole herd in one draw call: each instance finds its joints' poses in a row of
+// a float texture, two texels a joint: a quaternion, and a shift.
 
 import { THREE } from "three";
 
 const DECLARATIONS = `
 uniform highp sampler2D poses;
+attribute float row;
 attribute vec4 joint;
 attribute vec4 weight;
 
@@ -13,7 +14,7 @@ vec3 turned(vec4 q, vec3 v) {
   return v + q.w * t + cross(q.xyz, t);
 }
 ivec2 texelOf(float j) {
-  return ivec2(2 * int(j + 0.5), gl_InstanceID);
+  return ivec2(2 * int(j + 0.5), int(row + 0.5));
 }
 vec3 posedPart(float j, vec3 v) {
   ivec2 at = texelOf(j);
@@ -54,10 +55,14 @@ export function poseTexture(count, joints) {
   return texture;
 }
 
-// A mesh that draws all instances of a kind. `arrays` are those of /skin/N.
+// A mesh that draws up to `count` creatures of a kind, those whose rows `showRows` lists. `arrays`
+// are those of /skin/N.
 export function herdMesh(arrays, texture, count) {
   const geometry = new THREE.InstancedBufferGeometry();
-  geometry.instanceCount = count;
+  geometry.instanceCount = 0;
+  const rows = new THREE.InstancedBufferAttribute(new Float32Array(count), 1);
+  rows.setUsage(THREE.DynamicDrawUsage);
+  geometry.setAttribute("row", rows);
   const { place, normal, joint, weight, colour, triangles } = arrays;
   geometry.setAttribute("position", new THREE.BufferAttribute(place.data, 3));
   geometry.setAttribute("normal", new THREE.BufferAttribute(normal.data, 3));
@@ -75,6 +80,20 @@ export function herdMesh(arrays, texture, count) {
   mesh.castShadow = true;
   mesh.receiveShadow = true;
   return mesh;
+}
+
+// Draw the creatures of the first `count` rows of the mesh's own list.
+export function showRows(mesh, count) {
+  mesh.visible = count > 0;
+  mesh.geometry.instanceCount = count;
+  mesh.geometry.getAttribute("row").needsUpdate = true;
+}
+
+export function dropMesh(scene, mesh) {
+  scene.remove(mesh);
+  mesh.geometry.dispose();
+  mesh.material.dispose();
+  mesh.customDepthMaterial.dispose();
 }
 
 // Colours as a screen shows them, four bytes each, to the linear ones that three.js lights.
