@@ -2,6 +2,7 @@
 
 import { fillChoice, make, makeButton, makeChoice } from "/page/elements.js";
 import { NumberBox } from "/page/number_box.js";
+import { nameOfRig } from "/page/rig_draft.js";
 
 const MOST = 200; // creatures, the first one among them
 
@@ -35,12 +36,7 @@ export class CrowdPanel {
   kinds() {
     const { creature, crowd } = this.store.document;
     const own = [creature.rig, ...crowd.map(({ rig }) => rig)];
-    return [...new Set([...this.store.welcome.rigs, ...own])].map((rig) => [rig, this.nameOf(rig)]);
-  }
-
-  nameOf(rig) {
-    if (!rig.startsWith("upload:")) return rig;
-    return rig === this.store.document.creature.rig ? this.store.creature.name : rig.slice(0, 15);
+    return [...new Set([...this.store.welcome.rigs, ...own])].map((rig) => [rig, nameOfRig(rig)]);
   }
 
   refresh() {

@@ -5,6 +5,7 @@ import { fillChoice, make, makeButton, makeChoice, makeTick } from "/page/elemen
 import { NumberBox } from "/page/number_box.js";
 
 const FLAT = "flat";
+const GIVEN = "given "; // before the name of a scene that was opened and brought ground of its own
 // Keys that are no lengths in metres: their unit, what makes it shown, and its decimals.
 const KEYS = {
   seed: { unit: "", factor: 1, decimals: 0 },
@@ -31,9 +32,10 @@ export class TerrainPanel {
   }
 
   refresh() {
-    const { generators } = this.store.welcome;
-    const names = [FLAT, ...Object.keys(generators)];
-    fillChoice(this.choice, names.map((name) => [name, name]), this.generator);
+    const { generators, given } = this.store.welcome;
+    const names = [FLAT, ...Object.keys(generators)].map((name) => [name, name]);
+    const scenes = given.map((name) => [GIVEN + name, `of ${name}`]);
+    fillChoice(this.choice, [...names, ...scenes], this.generator);
     const terrain = JSON.stringify(this.store.document.terrain);
     // What was typed and not yet applied stays, until the ground itself is another.
     if (terrain !== this.taken) {
@@ -44,9 +46,10 @@ export class TerrainPanel {
   }
 
   show(terrain) {
-    const { generator, ...values } = terrain ?? { generator: FLAT };
-    this.choose(generator, values);
-    this.choice.value = generator;
+    const { generator, given, ...values } = terrain ?? { generator: FLAT };
+    const name = generator ?? GIVEN + given;
+    this.choose(name, values);
+    this.choice.value = name;
   }
 
   choose(generator, values = {}) {
@@ -95,7 +98,9 @@ export class TerrainPanel {
   }
 
   wanted() {
-    return this.generator === FLAT ? null : { generator: this.generator, ...this.values };
+    if (this.generator === FLAT) return null;
+    if (this.generator.startsWith(GIVEN)) return { given: this.generator.slice(GIVEN.length) };
+    return { generator: this.generator, ...this.values };
   }
 
   send() {
