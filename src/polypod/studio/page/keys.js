@@ -38,7 +38,7 @@ export function bindKeys(store, scene) {
   const actions = {
     " ": () => order({ do: "clock", playing: !store.clock.playing }),
     ".": () => order({ do: "clock", playing: false, steps: 1 }),
-    f: () => scene.frameCreature(),
+    f: () => scene.frame(),
     r: () => toggleRecord(store),
     "?": () => dialog.showModal(),
     ArrowLeft: ready(() => turnBy(store, gesture, TURN)),

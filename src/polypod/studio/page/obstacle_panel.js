@@ -22,6 +22,9 @@ export class ObstaclePanel {
       makeButton(`+ ${shape}`, () => this.add(shape), { "aria-label": `Add a ${shape}` }));
     this.clear = makeButton("Delete all", () => this.store.edit(["obstacle"], []));
     this.list = make("ul", { class: "list", "aria-label": "Obstacles" });
+    this.list.addEventListener("keydown", (event) => {
+      if (event.key === "Delete" && this.chosen >= 0) this.remove(this.chosen);
+    });
     this.form = new ObstacleForm(store, () => this.chosen);
     this.element = make(
       "div", {}, make("div", { class: "row" }, ...adders, this.clear), this.list, this.form.element,

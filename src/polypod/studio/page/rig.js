@@ -12,6 +12,8 @@ import { RigUpload } from "/page/rig_upload.js";
 const QUIET = "#a3b0bd";
 const BONE = "#5b6774";
 const SPINE = "#ffffff";
+// What of a command has a default of each creature's own.
+const OWN = ["speed", "step_height", "body_height", "period", "duty"];
 const GIANT = 6; // m; what is taller is rarely meant to be
 
 export function mountRig(element, store) {
@@ -99,7 +101,7 @@ class RigPanel {
 
   // Files in centimetres are common, and would be giants: offer to take them for what they are.
   offerUnit() {
-    const tallest = this.draft.asked.height === null && this.draft.walks ? this.draft.fileHeight : 0;
+    const tallest = this.draft.asked.height === null ? this.draft.fileHeight ?? 0 : 0;
     this.unit = tallest > GIANT * 100 ? 0.001 : 0.01;
     this.shrink.hidden = !(tallest > GIANT);
     const name = this.unit === 0.01 ? "centimetres" : "millimetres";
@@ -158,7 +160,7 @@ class RigPanel {
     this.walk.textContent = walking ? "It walks" : "Walk it";
     this.save.disabled = !walking;
     this.save.title = walking ? "" : "What walks can be saved: press Walk it first";
-    const guesses = (draft.answer?.guesses ?? []).map((guess) => make("li", {}, plain(guess)));
+    const guesses = (draft.answer?.guesses ?? []).map((guess) => make("li", {}, guess));
     this.guesses.replaceChildren(...guesses.length ? guesses : [make("li", {}, "Nothing.")]);
     this.offerUnit();
     this.size.show(draft);
@@ -219,8 +221,17 @@ class RigPanel {
     this.legs.take(node);
   }
 
+  // What was asked of another's feet, in another's size, means nothing to this one; where it walks,
+  // and in what world, stays. All that is one step of undo.
   async letWalk() {
-    await this.store.edit(["creature"], this.creatureOfDraft());
+    const wanted = structuredClone(this.store.document);
+    Object.assign(wanted, { creature: this.creatureOfDraft(), gait: null, spacing: [] });
+    for (const key of OWN) wanted.command[key] = null;
+    try {
+      await this.store.send({ do: "open", document: wanted });
+    } catch (refusal) {
+      this.store.say(refusal.message);
+    }
     this.show();
   }
 
@@ -236,11 +247,6 @@ class RigPanel {
 
 function sameCreature(a, b) {
   return Object.keys(b).every((key) => JSON.stringify(a[key] ?? null) === JSON.stringify(b[key]));
-}
-
-// A guess without the words that tell users of the command line how to say otherwise.
-function plain(guess) {
-  return guess.replace(/; (--|a creature file).*$/, "");
 }
 
 function tall(metres) {

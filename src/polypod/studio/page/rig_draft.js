@@ -22,11 +22,11 @@ export class RigDraft {
     this.byNode = new Map(answer.joints.map((joint) => [joint.node, joint]));
     this.count = new Map();
     for (const { name } of answer.joints) this.count.set(name, (this.count.get(name) ?? 0) + 1);
+    if (this.asked.height === null) this.fileHeight = answer.height;
     if (!answer.walks) return;
     // From here on nodes are known, so texts give way to them.
     if (this.asked.leg) this.asked.leg = answer.legs.map(({ hip, foot }) => ({ hip, foot }));
     if (this.asked.spine) this.asked.spine = answer.spine;
-    if (this.asked.height === null) this.fileHeight = answer.height;
   }
 
   get walks() {

@@ -67,7 +67,7 @@ export class RigUpload {
   post(file) {
     return new Promise((resolve, reject) => {
       const request = new XMLHttpRequest();
-      request.open("POST", "/rig");
+      request.open("POST", `/rig?name=${encodeURIComponent(file.name)}`);
       request.setRequestHeader("X-Polypod-Token", this.store.token);
       request.setRequestHeader("Content-Type", "model/gltf-binary");
       request.responseType = "json";
