@@ -14,7 +14,13 @@ export class LegEditor {
     this.list = make("ul", { class: "list", "aria-label": "Legs" });
     this.spine = make("p", {});
     this.pickSpine = makeButton("Pick joints", () => this.want(this.wanted?.what === "spine" ? null : { what: "spine" }));
-    this.hint = make("p", { class: "hint", role: "status", hidden: true });
+    this.hintWords = make("span", { role: "status" });
+    this.hint = make(
+      "div", { class: "hint", hidden: true },
+      this.hintWords, makeButton("Stop", () => this.want(null), {
+        "aria-label": "Stop picking", title: "Escape does the same",
+      }),
+    );
     this.legs = make(
       "div", {}, this.list,
       make(
@@ -75,7 +81,7 @@ export class LegEditor {
   want(wanted, draft = this.draft) {
     this.wanted = wanted;
     this.hint.hidden = !wanted;
-    this.hint.textContent = wanted ? hintFor(wanted, draft) : "";
+    this.hintWords.textContent = wanted ? hintFor(wanted, draft) : "";
     this.pickSpine.setAttribute("aria-pressed", String(wanted?.what === "spine"));
     this.picking();
   }
@@ -113,7 +119,7 @@ export class LegEditor {
 }
 
 function hintFor({ what, hip }, draft) {
-  if (what === "hip") return "Click the hip: the first joint that the leg itself turns. Escape gives up.";
+  if (what === "hip") return "Click the hip: the first joint that the leg itself turns.";
   if (what === "foot") return `Now the foot, somewhere below ${draft.label(hip)}: where it meets the ground.`;
-  return "Click joints of the trunk to put them in or take them out; press Pick joints again when done.";
+  return "Click joints of the trunk to put them in or take them out, then Stop.";
 }

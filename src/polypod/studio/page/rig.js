@@ -4,7 +4,7 @@ import { addStyle, fillChoice, make, makeButton, makeChoice, makeSection, saveAs
 import { JointPicture } from "/page/joint_picture.js";
 import { JointTree } from "/page/joint_tree.js";
 import { LegEditor } from "/page/leg_editor.js";
-import { RigDraft, nameOfRig } from "/page/rig_draft.js";
+import { RigDraft, nameOfRig, rememberName } from "/page/rig_draft.js";
 import { limitTable } from "/page/rig_limits.js";
 import { RigSize } from "/page/rig_size.js";
 import { RigUpload } from "/page/rig_upload.js";
@@ -29,7 +29,9 @@ class RigPanel {
     this.builtIn = makeChoice("Creature", (rig) => this.look(new RigDraft(rig)));
     this.upload = new RigUpload(store, (answer) => this.takeUpload(answer));
     this.verdict = make("p", { class: "verdict", role: "status" });
-    this.shrink = makeButton("", () => this.size.takeUnit(this.unit), { hidden: true });
+    this.shrink = makeButton("", () => this.size.takeUnit(this.unit), {
+      class: "main", hidden: true,
+    });
     this.guesses = make("ul", { class: "guesses" });
     this.walk = makeButton("Walk it", () => this.letWalk(), { class: "main" });
     this.save = makeButton("Save as creature file", () => this.saveCreature());
@@ -104,8 +106,9 @@ class RigPanel {
     const tallest = this.draft.asked.height === null ? this.draft.fileHeight ?? 0 : 0;
     this.unit = tallest > GIANT * 100 ? 0.001 : 0.01;
     this.shrink.hidden = !(tallest > GIANT);
+    this.walk.classList.toggle("main", this.shrink.hidden);
     const name = this.unit === 0.01 ? "centimetres" : "millimetres";
-    this.shrink.textContent = `Its units may be ${name}: make it ${tall(tallest * this.unit)} tall`;
+    this.shrink.textContent = `In ${name}? Make it ${tall(tallest * this.unit)} tall`;
   }
 
   // Ask the server what is to be thought of the rig as it is asked for now.
@@ -131,6 +134,7 @@ class RigPanel {
 
   take(answer) {
     const others = answer.joints.length !== this.tree.rows?.length || answer.rig !== this.shownRig;
+    rememberName(answer.rig, answer.name);
     this.draft.take(answer);
     if (others) this.tree.build(this.draft.joints);
     this.shownRig = answer.rig;

@@ -1,7 +1,7 @@
 // A rig as it is being looked at: what is asked of it, and what the server found in it. It is no
 // creature of the scene before it is told to walk.
 
-const REPORTED = "polypod.rigs"; // names of uploads, kept for as long as the tab is
+const NAMED = "polypod.rigs"; // names of uploads, kept for as long as the tab is
 
 export class RigDraft {
   // `asked` holds what is not left to be found: {leg, spine, forward, height}, null where it is;
@@ -103,11 +103,11 @@ export function axes(forward) {
 
 // Names of uploads are for show alone: the server knows them by what is in them.
 export function rememberName(rig, name) {
-  const names = JSON.parse(sessionStorage.getItem(REPORTED) ?? "{}");
-  sessionStorage.setItem(REPORTED, JSON.stringify({ ...names, [rig]: name }));
+  const names = JSON.parse(sessionStorage.getItem(NAMED) ?? "{}");
+  sessionStorage.setItem(NAMED, JSON.stringify({ ...names, [rig]: name }));
 }
 
 export function nameOfRig(rig) {
   if (!rig.startsWith("upload:")) return rig;
-  return JSON.parse(sessionStorage.getItem(REPORTED) ?? "{}")[rig] ?? `upload ${rig.slice(7, 13)}`;
+  return JSON.parse(sessionStorage.getItem(NAMED) ?? "{}")[rig] ?? `upload ${rig.slice(7, 13)}`;
 }

@@ -1,7 +1,6 @@
 // A GLB from the user's disk, chosen or dropped anywhere on the page, sent with progress.
 
 import { make, makeButton } from "/page/elements.js";
-import { rememberName } from "/page/rig_draft.js";
 
 const MOST = 64 * 2 ** 20; // bytes
 
@@ -52,9 +51,7 @@ export class RigUpload {
     this.bar.hidden = false;
     this.button.disabled = true;
     try {
-      const answer = await this.post(file);
-      rememberName(answer.rig, file.name);
-      this.taken(answer);
+      this.taken(await this.post(file));
     } catch (error) {
       this.store.say(`${file.name}: ${error.message}`);
     } finally {
