@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
+from dataclasses import replace
 
 from polypod.errors import SettingError
 from polypod.herd import Herd
@@ -69,11 +70,12 @@ class Tape:
         return bytes(content)
 
     def walks(self) -> list[Recording]:
-        """Return a recording of each creature.
+        """Return a recording of each creature, the first frame at time 0.
 
         Raises:
             SettingError: nothing was recorded.
         """
         if len(self.frames) < 2:
             raise SettingError("nothing is recorded; press record and let it walk for a while")
-        return [recorder.finish() for _, _, recorder in self._recorders]
+        walks = [recorder.finish() for _, _, recorder in self._recorders]
+        return [replace(walk, time=walk.time - walk.time[0]) for walk in walks]
