@@ -8,6 +8,8 @@ import { documentSlider } from "/page/slider.js";
 const LIVE = 250; // ms between the numbers of what follows by itself
 // Settings are scales; 1 is what the creature's build and gait imply.
 const SCALE = { least: 0, most: 2, default: 1, unit: "×", step: 0.05 };
+// Commands that are null for a default of the creature's own.
+const OWN = ["speed", "step_height", "body_height"];
 const BY_SPEED = "by speed";
 
 const TRUNK = [
@@ -22,7 +24,7 @@ export function mountBody(element, store) {
   const add = (slider) => { sliders.push(slider); return slider.element; };
   const command = (label, key, automatic) =>
     add(documentSlider(store, {
-      label, automatic, at: ["command", key], range: () => store.creature.ranges[key],
+      label, automatic, unset: OWN.includes(key), at: ["command", key], range: () => store.creature.ranges[key],
     }));
   const setting = ([label, key]) =>
     add(documentSlider(store, { label, at: ["settings", key], range: () => SCALE }));

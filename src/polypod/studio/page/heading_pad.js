@@ -6,9 +6,9 @@ import { Gesture } from "/page/gesture.js";
 import { NumberBox } from "/page/number_box.js";
 import { headFor, headingOf, spokenDirection, turnBy } from "/page/steer.js";
 
-const SIZE = 140;
+const SIZE = 148;
 const MIDDLE = SIZE / 2;
-const RADIUS = MIDDLE - 20;
+const RADIUS = MIDDLE - 25;
 const DEGREE = Math.PI / 180;
 const FINE = 5 * DEGREE;
 const COARSE = 15 * DEGREE;
@@ -115,7 +115,7 @@ function ticks() {
 }
 
 function word(text, heading) {
-  const [x, y] = on(RADIUS + 12, heading);
+  const [x, y] = on(RADIUS + 16, heading);
   return makeSvg("text", { class: "pad-word", x, y: y + 4, "text-anchor": "middle" }, text);
 }
 

@@ -5,9 +5,12 @@ import { withUnit } from "/page/units.js";
 
 export class NumberBox {
   // `read` gives the value or null (shown empty), `write` takes a new one; both in the document's
-  // units, of which `factor` makes those shown. `words` are shown in place of a missing value.
-  constructor({ label, unit = "", factor = 1, decimals = 3, read, write, words = "", step = null }) {
-    Object.assign(this, { label, read, write });
+  // units, of which `factor` makes those shown. `words` are shown in place of a missing value, `tag`
+  // beside the box in place of the unit, where that is said once for several.
+  constructor({
+    label, unit = "", factor = 1, decimals = 3, read, write, words = "", tag = null, step = null,
+  }) {
+    Object.assign(this, { label, read, write, tag });
     this.input = make("input", { type: "number", step: "any", class: "number", placeholder: words });
     this.unit = make("span", { class: "unit", "aria-hidden": "true" });
     this.element = make("span", { class: "numberbox" }, this.input, this.unit);
@@ -27,7 +30,8 @@ export class NumberBox {
   // Show values in another unit. `step` is what the box's own arrows go by, in what is shown.
   show({ unit, factor, decimals, step = null }) {
     Object.assign(this, { factor, decimals });
-    this.unit.textContent = unit;
+    this.unit.textContent = this.tag ?? unit;
+    this.named = unit;
     this.input.setAttribute("aria-label", withUnitNamed(this.label, unit));
     this.input.step = step ?? "any";
   }
@@ -58,7 +62,7 @@ export class NumberBox {
   }
 
   spoken(value) {
-    return withUnit(this.text(value), this.unit.textContent);
+    return withUnit(this.text(value), this.named);
   }
 }
 

@@ -11,9 +11,10 @@ let sliders = 0;
 export class Slider {
   // `range` gives {least, most, default, unit, step}, `read` the value, `write(value, fresh)` takes
   // one: `fresh` is true where a new step of undo begins. With `automatic` {words, live}, null is
-  // a value too: `live` gives the number that then holds, or null where none is known.
-  constructor({ label, range, read, write, automatic = null }) {
-    Object.assign(this, { label, range, read, write, automatic });
+  // a value too: `live` gives the number that then holds, or null where none is known. With
+  // `unset`, null stands for the default, and the button writes it.
+  constructor({ label, range, read, write, automatic = null, unset = false }) {
+    Object.assign(this, { label, range, read, write, automatic, unset });
     this.held = false;
     this.build();
   }
@@ -27,14 +28,16 @@ export class Slider {
       read: () => this.shown(),
       write: (value) => this.write(value, true),
     });
-    this.reset = makeButton("↺", () => this.write(this.standard(), true), { class: "reset" });
+    this.reset = makeButton("↺", () => this.write(this.unset ? null : this.standard(), true), {
+      class: "reset",
+    });
     this.element = make(
       "div", { class: "slider", role: "group", "aria-label": this.label },
       make("label", { for: id }, this.label), this.input, this.box.element, this.reset,
     );
     if (this.automatic) {
       this.tick = makeTick(this.automatic.words, (on) => {
-        this.write(on ? null : this.shown() ?? this.range().default, true);
+        this.write(on ? null : this.pinned(), true);
       });
       this.tick.box.setAttribute("aria-label", `${this.label} ${this.automatic.words}`);
       this.element.append(this.tick.element);
@@ -54,6 +57,12 @@ export class Slider {
     this.input.addEventListener("change", release);
     this.input.addEventListener("pointercancel", release);
     this.input.addEventListener("blur", release);
+  }
+
+  // What holds by itself, as a number to keep: no more digits than are shown.
+  pinned() {
+    const { least, most, step } = this.range();
+    return Number((this.automatic.live() ?? (least + most) / 2).toFixed(decimalsOf(step)));
   }
 
   // What the default button goes back to.
@@ -107,12 +116,13 @@ export class Slider {
 }
 
 // A slider of a place in the document.
-export function documentSlider(store, { label, at, range, automatic }) {
+export function documentSlider(store, { label, at, range, automatic, unset }) {
   const gesture = new Gesture(store, () => slider.refresh());
   const slider = new Slider({
     label,
     range,
     automatic,
+    unset,
     read: () => at.reduce((part, key) => part?.[key], store.document) ?? null,
     write: (value, fresh) => {
       if (fresh) gesture.begin();

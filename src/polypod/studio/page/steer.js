@@ -24,10 +24,10 @@ export function turnBy(store, gesture, angle) {
 
 // Walk faster or slower by a share of the range of speeds.
 export function speedBy(store, gesture, share) {
-  const { least, most } = store.creature.ranges.speed;
+  const { least, most, default: usual } = store.creature.ranges.speed;
   const at = ["command", "speed"];
   gesture.continue();
-  const speed = gesture.pending(at) ?? store.document.command.speed;
+  const speed = gesture.pending(at) ?? store.document.command.speed ?? usual;
   gesture.edit(at, Math.min(most, Math.max(least, speed + share * (most - least))));
 }
 

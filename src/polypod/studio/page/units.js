@@ -18,6 +18,7 @@ export function shownAs({ least = 0, most, step, unit }) {
     factor = 100;
     name = "%";
   }
+  if (unit === "times") name = "×";
   return { factor, unit: name, decimals: decimalsOf(step * factor) };
 }
 
