@@ -18,6 +18,7 @@ from polypod.jobs.cast import comfortable_speed
 from polypod.morphology.types import Morphology
 from polypod.report.record import bones
 from polypod.report.scenery import foot_colours
+from polypod.studio.anatomy import limit_fans, pelvis_nodes, spine_line
 from polypod.studio.document import SETTINGS, Document
 
 # How much farther than the gait's top speed a speed may be asked for, and how high feet may be
@@ -204,4 +205,7 @@ def facts_of(herd: Herd) -> dict[str, Any]:
             }
             for row, limit in zip(spine.joint, spine.limit, strict=True)
         ],
+        "fans": limit_fans(herd),
+        "spine_line": spine_line(morphology),
+        "pelvis": pelvis_nodes(morphology),
     }

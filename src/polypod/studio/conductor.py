@@ -79,6 +79,11 @@ class Conductor:
         """Say how time goes."""
         self.say(clock_message(self))
 
+    @property
+    def last_frame(self) -> bytes:
+        """What was shown last."""
+        return self._last
+
     # Time.
 
     def step(self, dt: float) -> None:

@@ -31,14 +31,14 @@ from polypod.studio.stage import Stage
 CELLS = 64  # a side
 CELL = 0.07  # leg lengths
 ABOVE = 0.004  # leg lengths over the ground, so that they are seen
-# P1 Figure 11: ground, grown shape, edges, corners, inside, forbidden.
+# P1 Figure 11, with how much they hide: ground is everywhere, what stands on it is looked for.
 COLOURS = {
-    KIND_GROUND: (120, 200, 120),
-    KIND_GROWN: (240, 210, 90),
-    KIND_EDGE: (240, 140, 50),
-    KIND_CORNER: (200, 70, 200),
-    KIND_INSIDE: (80, 130, 230),
-    KIND_FORBIDDEN: (215, 50, 50),
+    KIND_GROUND: (242, 160, 192, 90),
+    KIND_GROWN: (220, 74, 60, 190),
+    KIND_EDGE: (84, 196, 100, 190),
+    KIND_CORNER: (242, 217, 78, 190),
+    KIND_INSIDE: (79, 124, 232, 190),
+    KIND_FORBIDDEN: (32, 32, 32, 210),
 }
 PIECES = 6  # of a path between two of its knots
 
@@ -83,7 +83,7 @@ class Overlays:
             ],
             axis=-1,
         )
-        palette = np.array([(*COLOURS[k], 150) for k in sorted(COLOURS)], np.uint8)
+        palette = np.array([COLOURS[k] for k in sorted(COLOURS)], np.uint8)
         kind = np.where(window.forbidden, KIND_FORBIDDEN, window.kind)
         return {
             "place": place.reshape(-1, 3).astype(np.float32),

@@ -71,6 +71,13 @@ class Runner:
     def listen(self, hear: Callable[[Event], None]) -> Callable[[], None]:
         """Have `hear` called, in the runner's thread, for all that tabs are to be sent."""
         self._listeners.append(hear)
+
+        def show() -> None:
+            # While time stands no frame would come by itself.
+            if hear in self._listeners:
+                hear(Event("frame", self._conductor.last_frame))
+
+        self._push(show)
         return lambda: self._listeners.remove(hear) if hear in self._listeners else None
 
     def tell(self, event: Event) -> None:

@@ -1,0 +1,72 @@
+// A coarser skin for creatures that look small: vertices that are close together, belong to the
+// same joint and face the same way become one. Facing keeps thin legs from closing to nothing.
+
+const CELLS = 7; // along the radius of the creature
+
+// From the arrays of a skin, the same arrays with fewer vertices.
+export function coarsened(arrays, radius) {
+  const { place, normal, joint, weight, colour, triangles } = arrays;
+  const cell = radius / CELLS;
+  const found = new Map();
+  const into = new Uint32Array(place.shape[0]);
+  for (let v = 0; v < place.shape[0]; v++) {
+    const key = keyOf(place.data, normal.data, joint.data, weight.data, v, cell);
+    if (!found.has(key)) found.set(key, found.size);
+    into[v] = found.get(key);
+  }
+  const count = found.size;
+  const out = {
+    place: { data: new Float32Array(3 * count), shape: [count, 3] },
+    normal: { data: new Float32Array(3 * count), shape: [count, 3] },
+    joint: { data: new Uint16Array(4 * count), shape: [count, 4] },
+    weight: { data: new Float32Array(4 * count), shape: [count, 4] },
+    colour: { data: new Uint8Array(4 * count), shape: [count, 4] },
+  };
+  const sums = new Float32Array(4 * count);
+  const members = new Uint32Array(count);
+  for (let v = 0; v < place.shape[0]; v++) {
+    const w = into[v];
+    members[w] += 1;
+    for (let i = 0; i < 3; i++) {
+      out.place.data[3 * w + i] += place.data[3 * v + i];
+      out.normal.data[3 * w + i] += normal.data[3 * v + i];
+    }
+    for (let i = 0; i < 4; i++) {
+      sums[4 * w + i] += colour.data[4 * v + i];
+      // Its joints are those of one of the vertices: all move much alike.
+      out.joint.data[4 * w + i] = joint.data[4 * v + i];
+      out.weight.data[4 * w + i] = weight.data[4 * v + i];
+    }
+  }
+  for (let w = 0; w < count; w++) finish(out, sums, w, members[w]);
+  out.triangles = remaining(triangles.data, into);
+  return out;
+}
+
+function keyOf(place, normal, joint, weight, v, cell) {
+  let strongest = 4 * v;
+  for (let n = 4 * v + 1; n < 4 * v + 4; n++) if (weight[n] > weight[strongest]) strongest = n;
+  const facing = (normal[3 * v] > 0 ? 1 : 0) | (normal[3 * v + 1] > 0 ? 2 : 0) | (normal[3 * v + 2] > 0 ? 4 : 0);
+  const [x, y, z] = [0, 1, 2].map((i) => Math.floor(place[3 * v + i] / cell));
+  return `${x} ${y} ${z} ${joint[strongest]} ${facing}`;
+}
+
+function finish(out, sums, w, members) {
+  const { place, normal, colour } = out;
+  const size = Math.hypot(...normal.data.subarray(3 * w, 3 * w + 3)) || 1;
+  for (let i = 0; i < 3; i++) {
+    place.data[3 * w + i] /= members;
+    normal.data[3 * w + i] /= size;
+  }
+  for (let i = 0; i < 4; i++) colour.data[4 * w + i] = sums[4 * w + i] / members;
+}
+
+// Triangles that still have three corners.
+function remaining(triangles, into) {
+  const kept = [];
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = into[triangles[t]], b = into[triangles[t + 1]], c = into[triangles[t + 2]];
+    if (a !== b && b !== c && c !== a) kept.push(a, b, c);
+  }
+  return { data: new Uint32Array(kept), shape: [kept.length / 3, 3] };
+}
