@@ -1,3 +1,128 @@
-// To come.
+// The strip: footfalls and plots through time. Live it shows the last seconds; what was recorded is
+// a scrubber.
 
-export function mountStrip(element, store) {}
+import { fit, redraw } from "/page/canvas.js";
+import { historyOf } from "/page/history.js";
+import { LANES } from "/page/lanes.js";
+import { drawPlots, GUTTER } from "/page/plots.js";
+import { Scrubber } from "/page/scrubber.js";
+import { addStyle, button, html, kept, shown } from "/page/svg.js";
+
+const SECONDS = 4; // shown live
+const FRAMES_A_SECOND = 15;
+const AT_FIRST = ["footfalls", "height"];
+
+export function mountStrip(element, store) {
+  addStyle("strip.css");
+  const strip = new Strip(store);
+  element.append(strip.element);
+}
+
+class Strip {
+  constructor(store) {
+    this.store = store;
+    this.history = historyOf(store);
+    this.scrubber = new Scrubber(store);
+    this.again = redraw(FRAMES_A_SECOND, () => this.draw());
+    this.switches = LANES.map((lane) => kept(lane.title, `polypod.strip.${lane.key}`, AT_FIRST.includes(lane.key),
+      () => this.change(), { title: lane.about ?? "When each foot stands" }));
+    this.liveButton = button("Live", () => this.scrubber.live(), { title: "The walk as it goes on (Escape on the slider)" });
+    this.tapeButton = button("Recorded", () => this.scrubber.go(0), { title: "What was recorded, from its beginning" });
+    this.time = html("output", { class: "strip-time quiet" });
+    this.canvas = html("canvas", { role: "img", "aria-label": "Plots against time" });
+    this.cursor = html("div", { class: "strip-cursor" });
+    this.plots = html("div", { class: "strip-plots" }, this.canvas, this.cursor);
+    this.element = html("div", { class: "strip" },
+      html("div", { class: "strip-head" }, this.liveButton, this.tapeButton,
+        html("div", { class: "strip-lanes", role: "group", "aria-label": "Plots to show" }, ...this.switches.map((lane) => lane.element)),
+        this.time),
+      this.plots, this.scrubber.element);
+    this.scrubber.bind(this.plots, GUTTER, () => this.scrubbing);
+    this.scrubber.bind(this.scrubber.element, 0, () => true);
+    for (const kind of ["frame", "creature", "tape", "document"]) store.on(kind, this.again);
+    store.on("tape", () => this.showTape());
+    new ResizeObserver(() => this.change()).observe(this.plots);
+    this.showTape();
+  }
+
+  get scrubbing() {
+    return this.store.tape.scrub !== null;
+  }
+
+  // Something else than time has changed: all is drawn anew.
+  change() {
+    this.drawn = null;
+    this.again();
+  }
+
+  showTape() {
+    const { frames, recording, seconds } = this.store.tape;
+    const there = frames > 0 && !recording;
+    this.tapeButton.hidden = frames === 0;
+    this.tapeButton.disabled = recording;
+    this.tapeButton.textContent = `${recording ? "Recording" : "Recorded"} ${seconds.toFixed(1)} s`;
+    this.liveButton.setAttribute("aria-pressed", String(!this.scrubbing));
+    this.tapeButton.setAttribute("aria-pressed", String(this.scrubbing));
+    this.scrubber.element.hidden = !there;
+    this.plots.classList.toggle("scrubs", this.scrubbing);
+  }
+
+  draw() {
+    const feet = this.store.creature?.feet;
+    if (!feet || !shown(this.element)) return;
+    if (this.scrubbing) this.drawTape(feet);
+    else this.drawLive(feet);
+    this.scrubber.show();
+  }
+
+  get lanes() {
+    return LANES.filter((_, n) => this.switches[n].on);
+  }
+
+  drawLive(feet) {
+    this.drawn = null;
+    this.cursor.hidden = true;
+    const fitting = this.history.recent(SECONDS).filter(({ stance }) => stance.length === feet.length);
+    const now = fitting.at(-1)?.time ?? 0;
+    this.write(`${now.toFixed(2)} s`);
+    drawPlots(fit(this.canvas), this.lanes, {
+      feet, from: now - SECONDS, to: now, zero: 0, cursor: fitting.at(-1),
+      samples: fitting.map((sample, i) => ({ x: sample.time, sample, gap: i === 0 })),
+    });
+  }
+
+  // The plots of a tape are drawn once; what moves is the cursor.
+  drawTape(feet) {
+    const at = this.scrubber.frame ?? 0;
+    const sample = this.history.tape[at];
+    const { rate, last } = this.scrubber;
+    const drawn = `${this.history.version} ${last} ${at}`;
+    if (drawn !== this.drawn) {
+      this.drawn = drawn;
+      drawPlots(fit(this.canvas), this.lanes, {
+        feet, from: 0, to: last / rate, zero: 0, cursor: sample,
+        samples: this.tapeSamples(feet, rate),
+      });
+    }
+    this.cursor.hidden = false;
+    const share = last > 0 ? at / last : 0;
+    this.cursor.style.left = `calc(${GUTTER}px + (100% - ${GUTTER}px) * ${share.toFixed(5)})`;
+    this.write(`${(at / rate).toFixed(2)} s of ${this.store.tape.seconds.toFixed(2)} s`);
+  }
+
+  tapeSamples(feet, rate) {
+    const known = this.history.recorded().filter(({ sample }) => sample.stance.length === feet.length);
+    // More samples than pixels cannot be seen.
+    const stride = Math.max(1, Math.floor(known.length / Math.max(this.canvas.clientWidth, 1)));
+    const taken = known.filter((_, n) => n % stride === 0);
+    // Where frames never came to this page there is nothing to draw, and no line across.
+    const longest = 0.25 * rate + stride;
+    return taken.map(({ frame, sample }, i) => ({
+      x: frame / rate, sample, gap: i === 0 || frame - taken[i - 1].frame > longest,
+    }));
+  }
+
+  write(words) {
+    if (this.time.textContent !== words) this.time.textContent = words;
+  }
+}

@@ -1,0 +1,91 @@
+// A slider over what was recorded: drag or keys show a frame of it.
+
+import { html } from "/page/svg.js";
+import { Newest } from "/page/newest.js";
+
+export class Scrubber {
+  constructor(store) {
+    this.store = store;
+    this.sender = new Newest((frame) => (
+      store.send({ do: "scrub", frame }).catch((refusal) => store.say(refusal.message))));
+    this.knob = html("div", { class: "scrub-knob" });
+    this.element = html("div", {
+      class: "scrub", role: "slider", tabindex: 0, "aria-label": "Recorded time",
+      "aria-valuemin": 0, "aria-orientation": "horizontal",
+    }, this.knob);
+    this.element.addEventListener("keydown", (event) => this.press(event));
+  }
+
+  get last() {
+    return Math.max(this.store.tape.frames - 1, 0);
+  }
+
+  get rate() {
+    const { frames, seconds } = this.store.tape;
+    return seconds > 0 ? frames / seconds : this.store.welcome?.fps ?? 60;
+  }
+
+  // Where the tape is shown at; null while the simulation is.
+  get frame() {
+    return this.store.frame?.tapeFrame ?? this.store.tape.scrub;
+  }
+
+  go(frame) {
+    const wanted = Math.min(Math.max(Math.round(frame), 0), this.last);
+    this.wanted = wanted;
+    this.sender.push(wanted);
+  }
+
+  live() {
+    this.wanted = null;
+    this.sender.push(null);
+  }
+
+  press(event) {
+    const second = Math.round(this.rate);
+    const step = event.shiftKey ? 10 : 1;
+    // Strokes in a row add up before the first of them is answered.
+    const at = this.sender.busy ? this.wanted ?? 0 : this.frame ?? this.last;
+    const to = {
+      ArrowRight: at + step, ArrowUp: at + step, ArrowLeft: at - step, ArrowDown: at - step,
+      PageUp: at + second, PageDown: at - second, Home: 0, End: this.last,
+    }[event.key];
+    if (to === undefined && event.key !== "Escape") return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (to === undefined) this.live();
+    else this.go(to);
+  }
+
+  // `share` of an element's width from `gutter` on, as a drag on it.
+  bind(element, gutter, enabled) {
+    let held = false;
+    const follow = (event) => {
+      const box = element.getBoundingClientRect();
+      this.go(((event.clientX - box.left - gutter) / (box.width - gutter)) * this.last);
+    };
+    element.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0 || !enabled()) return;
+      event.preventDefault();
+      held = true;
+      element.setPointerCapture(event.pointerId);
+      this.element.focus({ preventScroll: true });
+      follow(event);
+    });
+    element.addEventListener("pointermove", (event) => { if (held) follow(event); });
+    for (const kind of ["pointerup", "pointercancel"]) element.addEventListener(kind, () => { held = false; });
+  }
+
+  show() {
+    const { frames, seconds } = this.store.tape;
+    const at = this.frame;
+    this.element.setAttribute("aria-valuemax", String(this.last));
+    this.element.setAttribute("aria-valuenow", String(at ?? this.last));
+    const words = at === null
+      ? `live; ${seconds.toFixed(2)} s are recorded`
+      : `${(at / this.rate).toFixed(2)} s of ${seconds.toFixed(2)} s`;
+    this.element.setAttribute("aria-valuetext", words);
+    this.knob.style.left = `${frames > 1 ? (100 * (at ?? this.last)) / this.last : 0}%`;
+    this.knob.classList.toggle("away", at === null);
+  }
+}
