@@ -65,7 +65,7 @@ export function shiftedDisk({ start, extent }, part, delta) {
 // on the circle, mostly half a cycle, stays as it was.
 export function shiftedDisks(disks, k, part, delta, partner = -1) {
   const start = disks.start.map(rounded);
-  const extent = [...disks.extent];
+  const extent = disks.extent.map((share) => Math.round(share * DIGITS) / DIGITS);
   for (const foot of partner < 0 ? [k] : [k, partner]) {
     const disk = { start: disks.start[foot], extent: disks.extent[foot] };
     const moved = shiftedDisk(disk, part, delta);
@@ -75,11 +75,18 @@ export function shiftedDisks(disks, k, part, delta, partner = -1) {
   return { start, extent };
 }
 
-// What is asked for, or else what is in use; null while neither is known.
+// The disks to edit: those drawn by hand, or else those in use, for the duty of the library's gaits
+// follows the speed. Null while neither is known.
 export function disksOf(store) {
   const asked = store.document?.gait;
-  if (asked) return { start: asked.start, extent: asked.extent };
+  if (isDrawn(store)) return { start: asked.start, extent: asked.extent };
   return disksInUse(store);
+}
+
+// Whether the gait asked for was drawn by hand.
+export function isDrawn(store) {
+  const asked = store.document?.gait;
+  return Boolean(asked && store.creature && !store.creature.gaits.includes(asked.name));
 }
 
 export function disksInUse(store) {

@@ -1,6 +1,6 @@
 // The chosen foot's disk in numbers: when it lifts and lands, and its duty.
 
-import { disksOf, rounded } from "/page/disks.js";
+import { disksOf, isDrawn, rounded } from "/page/disks.js";
 import { NumberField } from "/page/number_field.js";
 import { html } from "/page/svg.js";
 
@@ -24,7 +24,7 @@ export class FootNumbers {
       this.lifts.element, this.lands.element, this.duty.element);
     store.on("creature", () => this.list());
     store.on("document", () => this.show());
-    store.on("frame", () => { if (!store.document?.gait) this.show(); });
+    store.on("frame", () => { if (!isDrawn(store)) this.show(); });
     this.list();
   }
 

@@ -1,7 +1,8 @@
-// What the creature in focus did: the last seconds as they come, and what was recorded, by the
-// frame of the tape. The page keeps it, for the server sends each frame once.
+// What the creature in focus did: the last seconds as they come, and what was recorded. The page
+// keeps it, for the server sends each frame once.
 
 const LIVE_SECONDS = 12;
+const SAME_TIME = 1e-4; // s
 
 // What plots need of a frame.
 function sampleOf(frame) {
@@ -34,9 +35,11 @@ class History {
   constructor(store) {
     this.store = store;
     this.live = []; // by time, of the last seconds
-    this.tape = []; // by the tape's frame; holes where no frame came
+    this.tape = []; // by time, of what is recorded as far as its frames came to this page
+    this.begin = null; // s, when the tape begins
     this.version = 0; // of the tape, for who draws it
-    this.firstNumber = null; // of the simulation's frame that is the tape's first
+    this.scrubbed = null; // the sample of the tape that is shown
+    this.recording = false;
     store.on("frame", (frame) => this.take(frame));
     store.on("tape", (tape) => this.takeTape(tape));
     store.on("creature", () => { this.live = []; });
@@ -45,37 +48,43 @@ class History {
   take(frame) {
     const sample = sampleOf(frame);
     if (frame.tapeFrame !== null) {
-      if (!this.tape[frame.tapeFrame]) this.keep(frame.tapeFrame, sample);
+      this.takeScrubbed(frame.tapeFrame, sample);
       return;
     }
     const last = this.live.at(-1);
     const other = `${frame.focus.kind} ${frame.focus.creature} ${sample.stance.length}`;
     if (other !== this.of || (last && sample.time < last.time)) this.live = [];
     this.of = other;
-    if (last && sample.time === last.time && this.live.length) return; // paused
+    if (this.live.length && sample.time === last.time) return; // paused
     this.live.push(sample);
     while (sample.time - this.live[0].time > LIVE_SECONDS) this.live.shift();
-    if (this.store.tape.recording) {
-      this.firstNumber ??= frame.number;
-      this.keep(frame.number - this.firstNumber, sample);
+    if (this.recording) {
+      this.tape.push(sample);
+      this.version += 1;
     }
+  }
+
+  // Frames of the tape carry the time at which they were recorded: now it is known exactly when it
+  // began, and what this page missed is filled in.
+  takeScrubbed(frame, sample) {
+    this.scrubbed = sample;
+    const begin = sample.time - frame / tapeRate(this.store);
+    if (this.begin !== null && Math.abs(begin - this.begin) > 1e-6) this.version += 1;
+    this.begin = begin;
+    const after = this.tape.findIndex(({ time }) => time > sample.time - SAME_TIME);
+    if (after >= 0 && this.tape[after].time < sample.time + SAME_TIME) return;
+    this.tape.splice(after < 0 ? this.tape.length : after, 0, sample);
+    this.version += 1;
   }
 
   takeTape({ recording, frames }) {
-    // A new tape, or one that was emptied.
     if ((recording && !this.recording) || frames === 0) {
-      this.tape = [];
-      this.firstNumber = null;
+      // A new tape begins with what is shown now, or there is none.
+      this.tape = recording ? this.live.slice(-1) : [];
+      this.begin = this.tape[0]?.time ?? null;
       this.version += 1;
     }
     this.recording = recording;
-    if (!recording && this.tape.length > frames) this.tape.length = frames;
-  }
-
-  keep(index, sample) {
-    if (index < 0) return;
-    this.tape[index] = sample;
-    this.version += 1;
   }
 
   // Samples of the last `seconds`, oldest first.
@@ -87,10 +96,14 @@ class History {
     return this.live.slice(Math.max(from - 1, 0));
   }
 
-  // What is known of the tape: [{frame, sample}].
+  // What is known of the tape: [{x: s since it began, sample}].
   recorded() {
-    const known = [];
-    this.tape.forEach((sample, frame) => known.push({ frame, sample }));
-    return known;
+    return this.tape.map((sample) => ({ x: sample.time - this.begin, sample }));
   }
+}
+
+// Frames of the tape a second.
+export function tapeRate({ tape, welcome }) {
+  const { frames, seconds } = tape;
+  return frames > 1 && seconds > 0 ? (frames - 1) / seconds : welcome?.fps ?? 60;
 }

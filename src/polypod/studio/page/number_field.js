@@ -20,6 +20,8 @@ export class NumberField {
     this.element = html("div", { class: "row number" }, html("label", { for: id }, label));
     if (slide) this.element.append(this.makeSlider());
     this.element.append(this.box, this.unit, this.back);
+    this.dirty = false; // typed into, and not yet given
+    this.box.addEventListener("input", () => { this.dirty = true; });
     this.box.addEventListener("change", () => this.read());
     this.box.addEventListener("keydown", (event) => {
       if (event.key === "Escape") this.write();
@@ -58,7 +60,7 @@ export class NumberField {
     if (value === this.value && fallback === this.fallback) return;
     this.value = value;
     this.fallback = fallback;
-    if (document.activeElement !== this.box || !this.typed()) this.write();
+    if (!this.dirty) this.write();
     if (this.slider && value !== null) this.slider.value = this.scale * value;
     this.back.disabled = this.atDefault;
   }
@@ -80,11 +82,8 @@ export class NumberField {
     return String(Number((this.scale * value).toFixed(this.digits)));
   }
 
-  typed() {
-    return this.box.value !== (this.value === null ? "" : this.format(this.value));
-  }
-
   write() {
+    this.dirty = false;
     this.box.value = this.value === null ? "" : this.format(this.value);
     this.back.disabled = this.atDefault;
   }

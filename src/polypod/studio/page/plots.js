@@ -32,11 +32,11 @@ export function drawPlots({ context, width, height }, lanes, view) {
   });
 }
 
-function drawAxis(context, scale, height, { from, to, zero }) {
+function drawAxis(context, scale, height, { from, to }) {
   const step = roundStep(to - from, Math.max((scale.width - GUTTER) / 90, 1));
   context.textAlign = "center";
-  for (let n = Math.ceil((from - zero) / step); zero + n * step <= to; n++) {
-    const x = Math.round(scale.place(zero + n * step));
+  for (let n = Math.ceil(from / step); n * step <= to; n++) {
+    const x = Math.round(scale.place(n * step));
     context.fillStyle = palette().line;
     context.fillRect(x, 0, 0.5, height - AXIS);
     context.fillStyle = palette().quiet;

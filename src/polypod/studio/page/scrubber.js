@@ -1,11 +1,15 @@
 // A slider over what was recorded: drag or keys show a frame of it.
 
-import { html } from "/page/svg.js";
+import { tapeRate } from "/page/history.js";
 import { Newest } from "/page/newest.js";
+import { html } from "/page/svg.js";
+
+const PATIENCE = 1000; // ms for which the next stroke goes on from where the last one is to lead
 
 export class Scrubber {
   constructor(store) {
     this.store = store;
+    this.wanted = null;
     this.sender = new Newest((frame) => (
       store.send({ do: "scrub", frame }).catch((refusal) => store.say(refusal.message))));
     this.knob = html("div", { class: "scrub-knob" });
@@ -21,8 +25,7 @@ export class Scrubber {
   }
 
   get rate() {
-    const { frames, seconds } = this.store.tape;
-    return seconds > 0 ? frames / seconds : this.store.welcome?.fps ?? 60;
+    return tapeRate(this.store);
   }
 
   // Where the tape is shown at; null while the simulation is.
@@ -32,7 +35,7 @@ export class Scrubber {
 
   go(frame) {
     const wanted = Math.min(Math.max(Math.round(frame), 0), this.last);
-    this.wanted = wanted;
+    this.wanted = { frame: wanted, at: performance.now() };
     this.sender.push(wanted);
   }
 
@@ -45,7 +48,8 @@ export class Scrubber {
     const second = Math.round(this.rate);
     const step = event.shiftKey ? 10 : 1;
     // Strokes in a row add up before the first of them is answered.
-    const at = this.sender.busy ? this.wanted ?? 0 : this.frame ?? this.last;
+    const recent = this.wanted && performance.now() - this.wanted.at < PATIENCE;
+    const at = recent ? this.wanted.frame : this.frame ?? this.last;
     const to = {
       ArrowRight: at + step, ArrowUp: at + step, ArrowLeft: at - step, ArrowDown: at - step,
       PageUp: at + second, PageDown: at - second, Home: 0, End: this.last,

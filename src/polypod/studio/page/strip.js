@@ -10,6 +10,7 @@ import { addStyle, button, html, kept, shown } from "/page/svg.js";
 
 const SECONDS = 4; // shown live
 const FRAMES_A_SECOND = 15;
+const LONGEST_GAP = 0.3; // s between two samples that a line joins
 const AT_FIRST = ["footfalls", "height"];
 
 export function mountStrip(element, store) {
@@ -86,22 +87,21 @@ class Strip {
     const now = fitting.at(-1)?.time ?? 0;
     this.write(`${now.toFixed(2)} s`);
     drawPlots(fit(this.canvas), this.lanes, {
-      feet, from: now - SECONDS, to: now, zero: 0, cursor: fitting.at(-1),
+      feet, from: now - SECONDS, to: now, cursor: fitting.at(-1),
       samples: fitting.map((sample, i) => ({ x: sample.time, sample, gap: i === 0 })),
     });
   }
 
-  // The plots of a tape are drawn once; what moves is the cursor.
+  // The plots of a tape are drawn anew where the cursor's figures change; else only it moves.
   drawTape(feet) {
     const at = this.scrubber.frame ?? 0;
-    const sample = this.history.tape[at];
     const { rate, last } = this.scrubber;
     const drawn = `${this.history.version} ${last} ${at}`;
     if (drawn !== this.drawn) {
       this.drawn = drawn;
       drawPlots(fit(this.canvas), this.lanes, {
-        feet, from: 0, to: last / rate, zero: 0, cursor: sample,
-        samples: this.tapeSamples(feet, rate),
+        feet, from: 0, to: last / rate, cursor: this.history.scrubbed,
+        samples: this.tapeSamples(feet),
       });
     }
     this.cursor.hidden = false;
@@ -110,15 +110,14 @@ class Strip {
     this.write(`${(at / rate).toFixed(2)} s of ${this.store.tape.seconds.toFixed(2)} s`);
   }
 
-  tapeSamples(feet, rate) {
+  tapeSamples(feet) {
     const known = this.history.recorded().filter(({ sample }) => sample.stance.length === feet.length);
     // More samples than pixels cannot be seen.
     const stride = Math.max(1, Math.floor(known.length / Math.max(this.canvas.clientWidth, 1)));
     const taken = known.filter((_, n) => n % stride === 0);
     // Where frames never came to this page there is nothing to draw, and no line across.
-    const longest = 0.25 * rate + stride;
-    return taken.map(({ frame, sample }, i) => ({
-      x: frame / rate, sample, gap: i === 0 || frame - taken[i - 1].frame > longest,
+    return taken.map(({ x, sample }, i) => ({
+      x, sample, gap: i === 0 || x - taken[i - 1].x > LONGEST_GAP * stride,
     }));
   }
 

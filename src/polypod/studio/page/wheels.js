@@ -1,6 +1,6 @@
 // All wheels, laid out as the creature stands: left and right by side, fore above hind.
 
-import { disksInUse, disksOf, needleNow } from "/page/disks.js";
+import { disksInUse, disksOf, isDrawn, needleNow } from "/page/disks.js";
 import { html, shown } from "/page/svg.js";
 import { bindWheel } from "/page/wheels_edit.js";
 import { HALF, Wheel } from "/page/wheel.js";
@@ -75,6 +75,6 @@ export class Wheels {
       wheel.showDisk(disks.start[k], disks.extent[k]);
       wheel.showState(!feet[k].stance, feet[k].next);
     });
-    if (!this.store.document?.gait) this.showAsked();
+    if (!isDrawn(this.store)) this.showAsked();
   }
 }

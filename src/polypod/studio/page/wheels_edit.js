@@ -1,6 +1,6 @@
 // Hands on the wheels: pointer and keys move a sector's start, its finish or the whole of it.
 
-import { disksOf, eventsOf, partnerOf, shiftedDisks, shortWay, snappedShift, wrap } from "/page/disks.js";
+import { disksOf, eventsOf, isDrawn, partnerOf, shiftedDisks, shortWay, snappedShift, wrap } from "/page/disks.js";
 import { KeyGesture, Newest } from "/page/newest.js";
 import { newGesture } from "/page/store.js";
 
@@ -24,7 +24,7 @@ export class GaitEditor {
   begin(k) {
     const disks = disksOf(this.store);
     if (!disks) return null;
-    if (this.store.document.gait?.name !== EDITED) this.origin = disks;
+    if (!isDrawn(this.store)) this.origin = disks;
     const partner = this.options.mirror ? partnerOf(this.store.creature.feet, k) : -1;
     return { k, disks: { start: [...disks.start], extent: [...disks.extent] }, partner };
   }
