@@ -9,6 +9,8 @@ from functools import cache
 from pathlib import Path
 
 PACKAGE_FOLDER = Path(__file__).parent
+# Rooms without a kernel: who works on the page need not compile anew.
+WITHOUT_KERNELS = ("studio",)
 
 
 def user_cache_folder() -> Path:
@@ -27,10 +29,12 @@ def source_digest() -> str:
     """Return a digest of all the package's sources.
 
     Numba's cache does not notice an edited callee in another file and then gives wrong answers, so
-    the cache folder is named after all the sources together.
+    the cache folder is named after all the sources together, but for rooms that hold no kernels.
     """
     digest = hashlib.sha256()
     for path in sorted(PACKAGE_FOLDER.rglob("*.py")):
+        if path.relative_to(PACKAGE_FOLDER).parts[0] in WITHOUT_KERNELS:
+            continue
         digest.update(path.relative_to(PACKAGE_FOLDER).as_posix().encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

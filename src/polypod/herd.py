@@ -99,23 +99,27 @@ class Herd:
         )
         self.command = Command(make_command(count, feet, WAYPOINT_ROOM))
         self.command.body_height = morphology.body.height
-        self.command.step_height = min(
-            step_share(settings, self.tables) * self.tables.leg_length,
-            FOLDING * folding_room(self.tables),
-        )
+        self.command.step_height = self.own_step_height(settings)
         # What kernels take: the same arrays, by reference.
         self.kernel_tables = by_reference(self.tables)
         self.kernel_state = by_reference(self.state)
         self.kernel_command = by_reference(self.command.arrays)
         self.settings = settings
         self.kernel_plan = by_reference(self.plan_settings)
+        self._memory: list[Scratch] = []
         self._scratch: list[Scratch] = []
         self._company = make_company([])
+
+    def own_step_height(self, settings: Settings) -> float:
+        """Return how high, m, feet are lifted over level ground where nobody says how high."""
+        share = step_share(settings, self.tables) * self.tables.leg_length
+        return float(min(share, FOLDING * folding_room(self.tables)))
 
     def join(self, company: Company, first: int) -> None:
         """Take part in a world's company, its creatures in rows from `first` on."""
         self.state.member[:] = np.arange(first, first + self.count)
         self._company = company
+        self._memory.clear()
         self._scratch.clear()
 
     def push(
@@ -258,5 +262,11 @@ class Herd:
                 neighbour=np.zeros(HEEDED, np.int64),
                 neighbour_gap=np.zeros(HEEDED),
             )
+            self._memory.append(scratch)
             self._scratch.append(by_reference(scratch))
         return self._scratch[worker]
+
+    def planned(self, worker: int = 0) -> PlanScratch:
+        """Return what a thread looked at when it last planned a footprint, to be shown."""
+        self.scratch(worker)
+        return self._memory[worker].plan

@@ -166,6 +166,23 @@ class World:
             herd.join(self._company, first)
             first += herd.count
 
+    def change_place(self, place: Environment, renumbered: Sequence[int]) -> None:
+        """Let the creatures that walk here go on in another environment.
+
+        Feet that stood on an obstacle that is gone look for another place.
+
+        Args:
+            place: the environment, which is put where it is at this world's time.
+            renumbered: for each obstacle of the environment before, which one it is now, -1: gone.
+        """
+        place.advance(self.time)
+        self.environment = place
+        self.kernel_environment = place.kernel_table
+        number = np.array([*renumbered, -1], np.int64)
+        for herd in self.herds:
+            for support in (herd.state.foot_support, herd.state.landing_support):
+                support[:] = number[support]
+
     def look_round(self) -> None:
         """Let each creature see where the others are now; `step` does it as a frame begins."""
         self._company.most[:] = 0.0

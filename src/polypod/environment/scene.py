@@ -117,7 +117,7 @@ def read_scene(path: str | Path, seed: int = 0) -> Scene:
     terrain: Terrain | TiledTerrain = Terrain.flat()
     if "terrain" in top:
         terrain = read_terrain(path, top.values["terrain"], seed)
-    obstacles = [_obstacle(path, place, entry) for place, entry in _entries(top, "obstacle")]
+    obstacles = [read_obstacle(path, place, entry) for place, entry in _entries(top, "obstacle")]
     for place, entry in _entries(top, "scatter"):
         obstacles += _scatter(place, entry, terrain, seed)
     creatures = tuple(_creature(place, entry) for place, entry in _entries(top, "creature"))
@@ -139,7 +139,17 @@ def _entries(top: SceneTable, key: str) -> list[tuple[str, Any]]:
     return [(f"{top.place}: [[{key}]] number {i + 1}", entry) for i, entry in enumerate(entries)]
 
 
-def _obstacle(path: Path, place: str, values: Any) -> Obstacle:
+def read_obstacle(path: Path | None, place: str, values: Any) -> Obstacle:
+    """Return an obstacle of a scene.
+
+    Args:
+        path: the scene file, beside which a mesh's file is; None where no file may be read.
+        place: file and table, the start of each error.
+        values: what the scene says of it.
+
+    Raises:
+        SceneError: a key or value that cannot be used.
+    """
     every = ("name", "shape", "position", "yaw", "rotation", "forbidden", *MOTION)
     table = SceneTable(place, values, (*every, "size", "points", "file", *SPLIT))
     shape = table.text("shape")
@@ -162,6 +172,8 @@ def _obstacle(path: Path, place: str, values: Any) -> Obstacle:
             points = table.rows("points", "x y z", 4, MOST_HULL_POINTS)
             still = Obstacle.hull(points, position, rotation, forbidden, name)
         elif shape == "mesh":
+            if path is None:
+                raise SceneError("it is a mesh, and no file is read here")
             still = _mesh(path, table, position, rotation, forbidden, name)
         else:
             size = three_numbers(table.numbers("size", "x y z", None, SMALLEST, LARGEST))

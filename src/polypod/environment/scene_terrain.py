@@ -49,12 +49,17 @@ def read_terrain(path: Path, values: Any, more_seed: int) -> Terrain | TiledTerr
     if len(kinds) > 1:
         raise SceneError(f"{place} has {choices(kinds)}; it must have only one of them")
     if kinds == ["generator"]:
-        return _generated(place, values, more_seed)
+        return read_generated(place, values, more_seed)
     read = {"heightmap": _heightmap, "tiles": _tiles, "mesh": _mesh}[kinds[0]]
     return read(place, values, path.parent)
 
 
-def _generated(place: str, values: dict[str, Any], more_seed: int) -> Terrain | TiledTerrain:
+def read_generated(place: str, values: dict[str, Any], more_seed: int) -> Terrain | TiledTerrain:
+    """Return the terrain of a generator with its keys; `more_seed` is added to its seed.
+
+    Raises:
+        SceneError: no such generator, or a key or value that it does not take.
+    """
     generator = values["generator"]
     if generator not in tuple(GENERATORS):
         raise SceneError(

@@ -63,7 +63,7 @@ def add_ground(
     second = np.stack([cell + 1, cell + len(x), cell + len(x) + 1], axis=1)
     colour = np.broadcast_to(EARTH, positions.shape).copy()
     if environment.water.size:
-        colour[_wet(environment, across.ravel(), along.ravel())] = WATER
+        colour[wet_at(environment, across.ravel(), along.ravel())] = WATER
     scene.add(positions, np.concatenate([first, second]), colour, GROUND)
 
 
@@ -82,7 +82,8 @@ def _lattice(
     return np.unique(np.concatenate([[least], places[(places > least) & (places < most)], [most]]))
 
 
-def _wet(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> NDArray[np.bool_]:
+def wet_at(environment: EnvironmentTable, x: FloatArray, z: FloatArray) -> NDArray[np.bool_]:
+    """Return [N] whether the samples next to places x [N] and z [N] are water."""
     x0, z0, cell = environment.terrain_place
     column = np.round((x - x0) / cell).astype(np.int64)
     row = np.round((z - z0) / cell).astype(np.int64)

@@ -1,0 +1,294 @@
+"""Carries out orders on the stage, and says what has changed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from polypod.errors import SettingError
+from polypod.gait.library import make_gait
+from polypod.studio.asked import disks_of, facts_of
+from polypod.studio.document import Document, edited, judged
+from polypod.studio.frames import Focus, MotionMeter, pack_frame
+from polypod.studio.history import History
+from polypod.studio.meshes import ground_reach, pack_ground, pack_skin
+from polypod.studio.messages import (
+    clock_message,
+    document_message,
+    kinds_message,
+    tape_message,
+    verdict_message,
+    welcome_message,
+)
+from polypod.studio.overlays import Overlays
+from polypod.studio.stage import Stage, judge_push
+from polypod.studio.tape import Tape
+
+OVERLAY_EVERY = 0.2  # s
+# The ground is sent anew when the first creature has gone so much of what was sent.
+GONE = 0.4
+KEPT_SKINS = 12
+
+
+class Conductor:
+    """What the runner's thread does; `tell` sends an event to all tabs."""
+
+    def __init__(self, stage: Stage, tell: Callable[[Any], None], event: Any) -> None:
+        self.stage = stage
+        self.history = History()
+        self.playing = True
+        self.rate = 1.0
+        self.behind = 1.0
+        self.number = 0
+        self.focus = Focus(0, 0)
+        self.tape: Tape | None = None
+        self.scrubbed: int | None = None
+        self.skins: dict[int, bytes] = {}
+        self.grounds: dict[int, bytes] = {}
+        self.skin_numbers: dict[int, int] = {}
+        self._counter = 0
+        self._meter = MotionMeter()
+        self._overlays = Overlays()
+        self._wished: frozenset[str] = frozenset()
+        self._overlays_told = 0.0
+        self._tell, self._event = tell, event
+        self._last = b""
+        self._renew_skins()
+        self._renew_ground()
+
+    # What goes out.
+
+    def greeting(self) -> list[dict[str, Any]]:
+        """Return the messages that a new tab needs, in their order."""
+        return [
+            welcome_message(self),
+            facts_of(self.stage.herd),
+            kinds_message(self),
+            document_message(self),
+            clock_message(self),
+            verdict_message(self),
+            tape_message(self),
+        ]
+
+    def say(self, message: dict[str, Any]) -> None:
+        """Send a message to all tabs."""
+        self._tell(self._event("text", message))
+
+    def tell_clock(self) -> None:
+        """Say how time goes."""
+        self.say(clock_message(self))
+
+    # Time.
+
+    def step(self, dt: float) -> None:
+        """Walk on by a step, and send a frame; who scrubs sees the tape."""
+        if self.scrubbed is not None:
+            return
+        self.stage.step(dt)
+        self._renew_ground_if_gone()
+        self._send_frame(dt)
+        self._send_overlays()
+
+    def rest(self, now: float) -> None:
+        """Do what is to be done while time stands still."""
+        self._send_overlays()
+
+    def _send_frame(self, dt: float | None = None) -> None:
+        stage = self.stage
+        herd = stage.herds[self.focus.kind]
+        if dt is None:
+            self._meter.forget()
+        motion = self._meter.note(herd, self.focus.creature, dt or 1.0)
+        self.number += 1
+        frame = pack_frame(
+            self.number, stage.world.time, stage.herds, stage.obstacle_poses(), self.focus, motion
+        )
+        self._last = frame
+        tape = self.tape
+        if tape is not None and tape.recording and dt is not None:
+            if tape.full or not tape.fits(stage.world):
+                self._stop_tape()
+                why = "the tape is full" if tape.full else "there are other obstacles now"
+                self.say({"is": "trouble", "why": f"recording has ended: {why}"})
+            else:
+                tape.add(frame)
+                if len(tape.frames) % 15 == 1:
+                    self.say(tape_message(self))
+        self._tell(self._event("frame", frame))
+
+    def watch_overlays(self, overlays: frozenset[str]) -> None:
+        """Send these overlays from now on."""
+        self._wished = overlays
+        self._overlays_told = 0.0
+
+    def _send_overlays(self) -> None:
+        now = time.perf_counter()
+        if not self._wished or now - self._overlays_told < OVERLAY_EVERY:
+            return
+        self._overlays_told = now
+        for name, content in self._overlays.of(self.stage, self.focus, self._wished):
+            self._tell(self._event("arrays", content, name))
+
+    # What stands and who walks.
+
+    def _renew_skins(self) -> None:
+        for herd in self.stage.herds:
+            key = id(herd.morphology)
+            if key not in self.skin_numbers:
+                self._counter += 1
+                self.skin_numbers[key] = self._counter
+                self.skins[self._counter] = pack_skin(herd.morphology)
+        walking = {id(herd.morphology) for herd in self.stage.herds}
+        for key, number in list(self.skin_numbers.items()):
+            if key not in walking:
+                del self.skin_numbers[key]
+                self.skins.pop(number, None)
+
+    def _renew_ground(self) -> None:
+        stage = self.stage
+        self._counter += 1
+        centre = stage.herd.state.position[0].copy()
+        reach = ground_reach(stage.herd.tables.leg_length)
+        self._ground_at = (centre, reach)
+        shown = len(stage.document["obstacle"])
+        packed = pack_ground(stage.world.environment, shown, centre, reach)
+        self.grounds = {self._counter: packed}
+
+    def _renew_ground_if_gone(self) -> None:
+        centre, reach = self._ground_at
+        here = self.stage.herd.state.position[0]
+        if max(abs(here[0] - centre[0]), abs(here[2] - centre[2])) > GONE * reach:
+            self._renew_ground()
+            self.say(kinds_message(self))
+
+    def take(self, document: Document, gesture: str | None = None, keep: bool = True) -> None:
+        """Take another document, judged; `keep` the one before for undo.
+
+        Raises:
+            PolypodError: it asks for what cannot be; nothing has changed.
+        """
+        before = self.stage.document
+        if document == before:
+            return
+        applied = self.stage.apply(document)
+        if keep:
+            self.history.note(before, gesture)
+        if applied.creature or applied.ground:
+            self._begin_anew(applied.creature)
+        self.say(document_message(self))
+        if any(document[k] != before[k] for k in ("creature", "gait", "command")):
+            self.say(verdict_message(self))
+        if not self.playing or applied.creature:
+            self._send_frame()
+
+    def _begin_anew(self, creature: bool) -> None:
+        self.focus = Focus(0, 0)
+        self._meter.forget()
+        if self.tape is not None and self.tape.recording:
+            self._stop_tape()
+        self._renew_skins()
+        self._renew_ground()
+        if creature:
+            self.say(facts_of(self.stage.herd))
+        self.say(kinds_message(self))
+
+    # Orders.
+
+    def obey(self, order: dict[str, Any]) -> None:
+        """Carry out an order that `orders.judge_order` has let through.
+
+        Raises:
+            PolypodError: it cannot be done; nothing has changed.
+        """
+        getattr(self, f"_do_{order['do']}")(order)
+
+    def _do_edit(self, order: dict[str, Any]) -> None:
+        document = edited(self.stage.document, order["at"], order["to"])
+        self.take(document, order.get("gesture"))
+
+    def _do_open(self, order: dict[str, Any]) -> None:
+        self.take(judged(order["document"]))
+
+    def _do_undo(self, order: dict[str, Any]) -> None:
+        document = self.history.undo(self.stage.document)
+        if document is None:
+            raise SettingError("there is nothing to undo")
+        self.take(document, keep=False)
+
+    def _do_redo(self, order: dict[str, Any]) -> None:
+        document = self.history.redo(self.stage.document)
+        if document is None:
+            raise SettingError("there is nothing to redo")
+        self.take(document, keep=False)
+
+    def _do_gait(self, order: dict[str, Any]) -> None:
+        document = dict(self.stage.document)
+        if "cycles" in order:
+            document["command"] = {**document["command"], "blend_cycles": float(order["cycles"])}
+        legs = self.stage.herd.tables.legs
+        name = order["name"]
+        document["gait"] = None if name is None else disks_of(make_gait(name, legs.side, legs.row))
+        self.take(judged(document))
+
+    def _do_clock(self, order: dict[str, Any]) -> None:
+        if order.get("playing") and self.scrubbed is not None:
+            self._do_scrub({"frame": None})
+        self.playing = order.get("playing", self.playing)
+        self.rate = float(order.get("rate", self.rate))
+        if not self.playing:
+            for _ in range(order.get("steps", 0)):
+                self.step(1.0 / 60.0)
+        self.tell_clock()
+
+    def _do_push(self, order: dict[str, Any]) -> None:
+        asked = {"creature": 0, "at": 0.0, **order}
+        herd, row, velocity, at = judge_push(self.stage, asked)
+        herd.push(velocity, row, at=at)
+
+    def _do_restart(self, order: dict[str, Any]) -> None:
+        self.stage.restart()
+        self._begin_anew(False)
+        self._send_frame()
+
+    def _do_record(self, order: dict[str, Any]) -> None:
+        if order["on"]:
+            self._do_scrub({"frame": None})
+            self.tape = Tape(self.stage.world, self.stage.herds)
+            self._send_frame()
+            self.tape.add(self._last)
+        elif self.tape is not None:
+            self.tape.recording = False
+        self.say(tape_message(self))
+
+    def _stop_tape(self) -> None:
+        if self.tape is not None:
+            self.tape.recording = False
+        self.say(tape_message(self))
+
+    def _do_scrub(self, order: dict[str, Any]) -> None:
+        index = order["frame"]
+        if index is None:
+            if self.scrubbed is not None:
+                self.scrubbed = None
+                self._send_frame()
+                self.say(tape_message(self))
+            return
+        if self.tape is None:
+            raise SettingError("nothing is recorded; press record and let it walk for a while")
+        self.number += 1
+        content = self.tape.shown(index, self.number)
+        self._stop_tape()
+        self.scrubbed = index
+        self._tell(self._event("frame", content))
+        self.say(tape_message(self))
+
+    def _do_watch(self, order: dict[str, Any]) -> None:
+        row = order["creature"]
+        for kind, herd in enumerate(self.stage.herds):
+            if row < herd.count:
+                self.focus = Focus(kind, row)
+                self._meter.forget()
+                return
+            row -= herd.count
+        raise SettingError(f"there is no creature {order['creature']}")

@@ -1,0 +1,89 @@
+"""The messages that tell tabs how things are (docs/studio-protocol.md)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from polypod import __version__
+from polypod.environment.generators import GENERATORS, generator_keys
+from polypod.morphology.builtin import NAMES as BUILT_IN
+
+if TYPE_CHECKING:
+    from polypod.studio.conductor import Conductor
+
+Message = dict[str, Any]
+
+
+def welcome_message(conductor: Conductor) -> Message:
+    """Say what this studio is and has."""
+    return {
+        "is": "welcome",
+        "version": __version__,
+        "rigs": list(BUILT_IN),
+        "generators": {name: generator_keys(name) for name in GENERATORS},
+        "given": list(conductor.stage.given),
+        "fps": 60,
+    }
+
+
+def kinds_message(conductor: Conductor) -> Message:
+    """Say who walks, and which skins and ground that is drawn with."""
+    kinds = [
+        {
+            "skin": conductor.skin_numbers[id(herd.morphology)],
+            "count": herd.count,
+            "joints": len(herd.morphology.joint_node) + 1,
+            "name": herd.morphology.name,
+        }
+        for herd in conductor.stage.herds
+    ]
+    return {"is": "kinds", "kinds": kinds, "ground": max(conductor.grounds)}
+
+
+def document_message(conductor: Conductor) -> Message:
+    """Say what is asked for now."""
+    return {
+        "is": "document",
+        "document": conductor.stage.document,
+        "can_undo": conductor.history.can_undo,
+        "can_redo": conductor.history.can_redo,
+    }
+
+
+def clock_message(conductor: Conductor) -> Message:
+    """Say how time goes."""
+    return {
+        "is": "clock",
+        "playing": conductor.playing,
+        "rate": conductor.rate,
+        "behind": conductor.behind,
+        "time": conductor.stage.world.time,
+        "frame": conductor.number,
+    }
+
+
+def verdict_message(conductor: Conductor) -> Message:
+    """Say what to think of the gait (P2 4)."""
+    check = conductor.stage.verdict()
+    return {
+        "is": "verdict",
+        "verdict": check.verdict,
+        "sentence": check.sentence,
+        "reasons": list(check.reasons),
+        "body_peak": float(check.body_peak),
+        "foot_peak": [float(v) for v in check.foot_peak],
+        "flight": float(check.flight),
+        "speed": float(check.speed),
+    }
+
+
+def tape_message(conductor: Conductor) -> Message:
+    """Say what is recorded."""
+    tape = conductor.tape
+    return {
+        "is": "tape",
+        "recording": tape is not None and tape.recording,
+        "frames": 0 if tape is None else len(tape.frames),
+        "seconds": 0.0 if tape is None else tape.seconds,
+        "scrub": conductor.scrubbed,
+    }

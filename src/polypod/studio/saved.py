@@ -1,0 +1,151 @@
+"""Documents as scene files, and scene files as documents (docs/formats.md)."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from polypod.environment.obstacles import Obstacle
+from polypod.environment.scene import Scene, read_scene
+from polypod.errors import SceneError, SettingError
+from polypod.studio.document import Document, default_document, judged
+from polypod.studio.places import Ground, yaw_of
+
+# What a scene's [[creature]] takes over from a document's creature.
+NAMED = ("leg", "spine", "forward", "height", "body_height")
+
+
+def scene_text(document: Document) -> str:
+    """Return the scene file of a document: terrain, obstacles, and who walks where.
+
+    What a scene file cannot hold (an edited gait, feet spacing, the body's motion) stays in the
+    studio's own link.
+
+    Raises:
+        SettingError: its terrain is of a file that only the scene that was opened names.
+    """
+    parts = []
+    terrain = document["terrain"]
+    if terrain is not None:
+        if "given" in terrain:
+            raise SettingError(
+                f"the terrain is of the scene {terrain['given']!r}, whose own file holds it; "
+                "choose another terrain to save this one"
+            )
+        parts.append(_table("[terrain]", terrain))
+    parts += [_table("[[obstacle]]", one) for one in document["obstacle"]]
+    parts += [_table("[[creature]]", one) for one in _creatures(document)]
+    return "\n".join(parts)
+
+
+def _creatures(document: Document) -> list[dict[str, Any]]:
+    asked = document["creature"]
+    first: dict[str, Any] = {"rig": asked["rig"]}
+    first |= {key: asked[key] for key in NAMED if asked[key] is not None}
+    command, gait = document["command"], document["gait"]
+    first["heading"] = command["heading"]
+    if command["speed"] is not None:
+        first["speed"] = command["speed"]
+    if gait is not None and gait["name"] != "edited":
+        first["gait"] = gait["name"]
+    if document["path"]:
+        first["path"] = [[0.0, 0.0], *document["path"]]
+    return [first, *(dict(kind) for kind in document["crowd"])]
+
+
+def _table(head: str, values: dict[str, Any]) -> str:
+    lines = [head, *(f"{key} = {_value(value)}" for key, value in values.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def document_of_scene(path: Path, before: Document) -> tuple[Document, dict[str, Ground]]:
+    """Return the document of a scene file, and the terrain that it brings, by its name.
+
+    The creature stays the one before where the scene has none.
+
+    Args:
+        path: of the file.
+        before: the document that it takes the place of.
+
+    Raises:
+        SceneError: the file cannot be used.
+    """
+    scene = read_scene(path)
+    values = tomllib.loads(path.read_text(encoding="utf-8"))
+    document = default_document(before["creature"]["rig"])
+    document["creature"] = dict(before["creature"])
+    given: dict[str, Ground] = {}
+    terrain = values.get("terrain")
+    if terrain is not None and "generator" in terrain:
+        document["terrain"] = terrain
+    elif terrain is not None:
+        document["terrain"] = {"given": path.stem}
+        given[path.stem] = scene.terrain
+    document["obstacle"] = [obstacle_values(path, one) for one in scene.obstacles]
+    _take_creatures(document, scene)
+    return judged(document), given
+
+
+def _take_creatures(document: Document, scene: Scene) -> None:
+    for i, spec in enumerate(scene.creatures):
+        if i > 0:
+            document["crowd"].append({"rig": spec.rig, "count": spec.count})
+            continue
+        document["creature"] = {
+            "rig": spec.rig,
+            "leg": list(spec.leg) or None,
+            "spine": list(spec.spine) or None,
+            "forward": spec.forward,
+            "height": spec.height,
+            "body_height": spec.body_height,
+        }
+        document["command"]["speed"] = spec.speed
+        document["command"]["heading"] = spec.heading or 0.0
+        way = [list(point) for point in spec.path]
+        document["path"] = way[1:] if way and way[0] == [0.0, 0.0] else way
+        if spec.count > 1:
+            document["crowd"].append({"rig": spec.rig, "count": spec.count - 1})
+
+
+def obstacle_values(path: Path, obstacle: Obstacle) -> dict[str, Any]:
+    """Return an obstacle as a document holds it.
+
+    Raises:
+        SceneError: it is a mesh, which a document cannot hold.
+    """
+    if obstacle.shape == "mesh":
+        raise SceneError(f"{path} has a mesh obstacle; the studio has box, cylinder, sphere, hull")
+    values: dict[str, Any] = {"shape": obstacle.shape, "position": list(obstacle.position)}
+    if obstacle.name:
+        values["name"] = obstacle.name
+    if obstacle.shape == "hull":
+        values["points"] = [list(point) for point in obstacle.points]
+    else:
+        values["size"] = list(obstacle.size)
+    x, y, z, w = obstacle.rotation
+    if x == 0.0 and z == 0.0:
+        values["yaw"] = yaw_of(obstacle)
+    else:
+        values["rotation"] = [x, y, z, w]
+    if obstacle.forbidden:
+        values["forbidden"] = True
+    if any(obstacle.velocity):
+        values["velocity"] = list(obstacle.velocity)
+    if obstacle.path:
+        values["path"] = [list(point) for point in obstacle.path]
+        values["speed"] = obstacle.speed
+    if obstacle.turn_rate:
+        values["turn_rate"] = obstacle.turn_rate
+    return values

@@ -1,0 +1,169 @@
+"""The world that a document asks for, changed as little as a new document needs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from polypod.command import FARTHEST
+from polypod.errors import PolypodError, SettingError
+from polypod.gait.validation import GaitCheck, check_gait
+from polypod.herd import Herd
+from polypod.morphology.load import load_rig
+from polypod.morphology.types import Morphology
+from polypod.studio.asked import ask, gait_of, settings_of
+from polypod.studio.document import Document
+from polypod.studio.places import Ground, change_of, make_place, obstacle_poses
+from polypod.studio.wandering import Wanderers, stand_beside
+from polypod.world import World
+
+# Where a rig's name leads: a built-in's name as it is, an upload's to its file; else SettingError.
+FindRig = Callable[[str], Any]
+
+
+class Applied(NamedTuple):
+    """What a new document changed."""
+
+    creature: bool  # who walks: the skins are others
+    ground: bool
+
+
+class Stage:
+    """A document and the world that walks it; used by one thread at a time.
+
+    Attributes:
+        document: judged; what is asked for now.
+        world: where it is walked.
+        herds: the first creature's, then the crowd's kinds.
+    """
+
+    def __init__(
+        self, document: Document, find_rig: FindRig, given: Mapping[str, Ground] | None = None
+    ) -> None:
+        self.find_rig = find_rig
+        self.given: dict[str, Ground] = dict(given or {})
+        self._rigs: dict[str, Morphology] = {}
+        self._build(document)
+        self.document = document
+
+    @property
+    def herd(self) -> Herd:
+        """The first creature's."""
+        return self.herds[0]
+
+    def apply(self, document: Document) -> Applied:
+        """Take another document.
+
+        Raises:
+            PolypodError: it asks for what cannot be; the stage is as it was.
+        """
+        before = self.document
+        applied = Applied(
+            creature=any(document[key] != before[key] for key in ("creature", "crowd")),
+            ground=document["terrain"] != before["terrain"],
+        )
+        if applied.creature or applied.ground:
+            self._build(document, None if applied.creature else self)
+        else:
+            ask(self.herd, document, before)
+            if document["obstacle"] != before["obstacle"]:
+                self._change_obstacles(before, document)
+        self.document = document
+        return applied
+
+    def restart(self) -> None:
+        """Stand all creatures where they began."""
+        self._build(self.document)
+
+    def step(self, dt: float) -> None:
+        """Walk on by `dt` seconds."""
+        self.wanderers.lead(self.world.time)
+        self.world.step(dt)
+
+    def obstacle_poses(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """Return [O, 7] quaternions and positions of the document's obstacles, world, m."""
+        return obstacle_poses(self.world.environment, len(self.document["obstacle"]))
+
+    def verdict(self) -> GaitCheck:
+        """Return what to think of the gait that is walked, at the speed asked for."""
+        herd = self.herd
+        gait = gait_of(self.document, herd.morphology)
+        speed = float(herd.command.arrays.speed[0])
+        if gait is None:
+            from polypod.gait.library import make_gait
+
+            legs = herd.tables.legs
+            gait = make_gait(herd.gait_name[0], legs.side, legs.row)
+        return check_gait(gait, herd.morphology, speed=speed)
+
+    def _rig(self, asked: Mapping[str, Any]) -> Morphology:
+        """Return a creature, read once for all that is said of it."""
+        key = repr(sorted(asked.items()))
+        if key not in self._rigs:
+            morphology = load_rig(
+                self.find_rig(asked["rig"]),
+                legs=asked.get("leg"),
+                spine=asked.get("spine"),
+                forward=asked.get("forward"),
+                height=asked.get("height"),
+                body_height=asked.get("body_height"),
+            )
+            if len(self._rigs) >= 8:
+                self._rigs.pop(next(iter(self._rigs)))
+            self._rigs[key] = morphology
+        return self._rigs[key]
+
+    def _build(self, document: Document, from_stage: Stage | None = None) -> None:
+        """Make the world anew; creatures go on from where those of a stage are, if one is given."""
+        morphology = self._rig(document["creature"])
+        gait_of(document, morphology)
+        kinds = [(self._rig({"rig": kind["rig"]}), kind["count"]) for kind in document["crowd"]]
+        world = World(make_place(document, self.given))
+        at, heading = (0.0, 0.0), float(document["command"]["heading"])
+        if from_stage is not None:
+            state = from_stage.herd.state
+            at = (float(state.position[0, 0]), float(state.position[0, 2]))
+            heading = float(state.heading[0])
+        settings = settings_of(document)
+        try:
+            first = world.add(morphology, position=list(at), heading=heading, settings=settings)
+        except SettingError:
+            if at == (0.0, 0.0):
+                raise
+            # The ground there is another now.
+            first = world.add(morphology, position=[0.0, 0.0], heading=heading, settings=settings)
+        ask(first, document, None)
+        crowd = stand_beside(world, first, kinds)
+        self.world = world
+        self.herds = [first, *crowd]
+        self.wanderers = Wanderers(crowd, first)
+
+    def _change_obstacles(self, before: Document, document: Document) -> None:
+        change = change_of(before, document, self.world.environment, self.given)
+        if change.environment is not None:
+            self.world.change_place(change.environment, change.renumbered)
+
+
+def judge_push(stage: Stage, order: Mapping[str, Any]) -> tuple[Herd, int, list[float], float]:
+    """Return whom an order to push is for, its velocity, m/s, and how far ahead it strikes, m.
+
+    Raises:
+        SettingError: no such creature, or no such push.
+    """
+    row = order["creature"]
+    for herd in stage.herds:
+        if 0 <= row < herd.count:
+            velocity = [float(v) for v in order["velocity"]]
+            if max(abs(v) for v in velocity) > FARTHEST:
+                break
+            herd.judge_push(velocity, row, float(order["at"]))
+            return herd, row, velocity, float(order["at"])
+        row -= herd.count
+    raise SettingError(f"there is no creature {order['creature']} to push")
+
+
+def trouble(error: PolypodError) -> dict[str, Any]:
+    """Return the message that says what could not be done."""
+    return {"is": "trouble", "why": str(error)}

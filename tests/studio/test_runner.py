@@ -1,0 +1,186 @@
+"""The simulation's thread: orders, frames, time, the tape."""
+
+from __future__ import annotations
+
+import struct
+import threading
+import time
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+from polypod.errors import SettingError
+from polypod.rigs.export import glb_bytes
+from polypod.rigs.gltf import GltfDocument
+from polypod.rigs.playback import Playback
+from polypod.studio.document import default_document
+from polypod.studio.orders import ORDERS, judge_order
+from polypod.studio.runner import Event, Runner
+
+PATIENCE = 240.0  # s: a cold start compiles
+
+
+@pytest.fixture(scope="module")
+def runner() -> Iterator[Runner]:
+    runner = Runner(default_document(), lambda name: name)
+    runner.start()
+    assert runner.ready.wait(PATIENCE)
+    yield runner
+    runner.stop()
+
+
+def give(runner: Runner, **order: Any) -> str | None:
+    done = threading.Event()
+    words: list[str | None] = []
+
+    def answer(why: str | None) -> None:
+        words.append(why)
+        done.set()
+
+    judge_order(order)
+    runner.order(order, answer)
+    assert done.wait(PATIENCE)
+    return words[0]
+
+
+def hear(runner: Runner, kind: str, count: int) -> list[Any]:
+    heard: list[Any] = []
+    enough = threading.Event()
+
+    def listen(event: Event) -> None:
+        if event.kind == kind and len(heard) < count:
+            heard.append(event.content)
+        if len(heard) >= count:
+            enough.set()
+
+    stop = runner.listen(listen)
+    assert enough.wait(PATIENCE)
+    stop()
+    return heard
+
+
+def test_a_new_tab_is_told_all_it_needs(runner: Runner) -> None:
+    said = [message["is"] for message in runner.greeting()]
+    assert said == ["welcome", "creature", "kinds", "document", "clock", "verdict", "tape"]
+    kinds = runner.greeting()[2]
+    assert runner.skin(kinds["kinds"][0]["skin"])
+    assert runner.ground(kinds["ground"])
+    assert runner.skin(10_000) is None
+
+
+def test_frames_follow_each_other_a_step_apart(runner: Runner) -> None:
+    assert give(runner, do="clock", playing=True, rate=1.0) is None
+    frames = hear(runner, "frame", 6)
+    heads = [struct.unpack_from("<IId", frame) for frame in frames]
+    assert [b[1] - a[1] for a, b in pairwise(heads)] == [1] * 5
+    for a, b in pairwise(heads):
+        assert b[2] - a[2] == pytest.approx(1.0 / 60.0)
+
+
+def test_paused_it_stands_and_goes_on_by_steps(runner: Runner) -> None:
+    assert give(runner, do="clock", playing=False) is None
+    before = runner.call(lambda conductor: conductor.stage.world.time).result(PATIENCE)
+    time.sleep(0.1)
+    assert runner.call(lambda conductor: conductor.stage.world.time).result(PATIENCE) == before
+    assert give(runner, do="clock", steps=3) is None
+    after = runner.call(lambda conductor: conductor.stage.world.time).result(PATIENCE)
+    assert after - before == pytest.approx(3.0 / 60.0)
+
+
+def test_orders_are_answered_and_undone(runner: Runner) -> None:
+    assert give(runner, do="edit", at=["command", "speed"], to=0.6) is None
+    refusal = give(runner, do="edit", at=["command", "speed"], to=60.0)
+    assert refusal is not None
+    assert refusal.startswith("speed is 60; it must be from 0 to")
+    speed = runner.call(lambda conductor: conductor.stage.document["command"]["speed"])
+    assert speed.result(PATIENCE) == 0.6
+    assert give(runner, do="undo") is None
+    speed = runner.call(lambda conductor: conductor.stage.document["command"]["speed"])
+    assert speed.result(PATIENCE) is None
+    assert give(runner, do="redo") is None
+    assert give(runner, do="redo") == "there is nothing to redo"
+
+
+def test_a_gait_by_its_name_is_written_as_disks(runner: Runner) -> None:
+    assert give(runner, do="gait", name="tripod", cycles=2.0) is None
+    gait = runner.call(lambda conductor: conductor.stage.document["gait"]).result(PATIENCE)
+    assert gait["name"] == "tripod"
+    assert len(gait["start"]) == 8
+    refusal = give(runner, do="gait", name="moonwalk")
+    assert refusal is not None
+    assert "no gait 'moonwalk'" in refusal
+    assert give(runner, do="gait", name=None) is None
+
+
+def test_what_is_recorded_is_scrubbed_and_exported_as_it_was(runner: Runner) -> None:
+    give(runner, do="clock", playing=False)
+    assert give(runner, do="record", on=True) is None
+    assert give(runner, do="clock", steps=30) is None
+    assert give(runner, do="record", on=False) is None
+    walks = runner.call(lambda conductor: conductor.tape.walks()).result(PATIENCE)
+    assert len(walks) == 1
+    assert len(walks[0].time) == 31
+    assert walks[0].time[0] == 0.0
+    # The GLB plays the same motion.
+    played = Playback(GltfDocument.from_bytes(glb_bytes(walks[0]), "walk.glb"))
+    worlds = played.world_matrices(walks[0].time)
+    node = int(walks[0].morphology.joint_node[0])
+    assert worlds[:, node, :3, 3] == pytest.approx(walks[0].joint_position[:, 0], abs=1e-5)
+
+    frames: list[bytes] = []
+    stop = runner.listen(lambda e: frames.append(e.content) if e.kind == "frame" else None)
+    assert give(runner, do="scrub", frame=10) is None
+    refusal = give(runner, do="scrub", frame=31)
+    stop()
+    assert refusal is not None
+    assert "it has 31 frames" in refusal
+    assert struct.unpack_from("<I", frames[-1], 28) == (11,)
+    assert give(runner, do="scrub", frame=None) is None
+
+
+def test_overlays_come_while_they_are_watched(runner: Runner) -> None:
+    runner.watched(frozenset(("cells", "candidates", "paths", "hull")))
+    give(runner, do="clock", playing=True)
+    names: set[str] = set()
+    enough = threading.Event()
+
+    def listen(event: Event) -> None:
+        if event.kind == "arrays":
+            names.add(event.name)
+        if len(names) == 4:
+            enough.set()
+
+    stop = runner.listen(listen)
+    assert enough.wait(PATIENCE), names
+    stop()
+    runner.watched(frozenset())
+
+
+@pytest.mark.parametrize(
+    ("order", "words"),
+    [
+        ({"do": "fly"}, "there is no order 'fly'"),
+        ({"do": "undo", "now": 1}, "undo has no key 'now'"),
+        ({"do": "edit", "at": ["command"]}, "edit needs to"),
+        ({"do": "edit", "at": [], "to": 1}, "edit has at"),
+        ({"do": "push", "velocity": [1.0, float("nan"), 0.0]}, "push has velocity"),
+        ({"do": "clock", "rate": 1e9}, "clock has rate"),
+        ({"do": "see", "overlays": ["secrets"]}, "see has overlays"),
+        ({"do": "ack", "frame": -1}, "ack has frame"),
+        ({"do": "undo", "id": "x"}, "an order's id"),
+        ({}, "there is no order None"),
+    ],
+)
+def test_malformed_orders_are_refused(order: dict[str, Any], words: str) -> None:
+    with pytest.raises(SettingError, match=words):
+        judge_order(order)
+
+
+def test_every_order_has_somebody_who_carries_it_out() -> None:
+    from polypod.studio.conductor import Conductor
+
+    by_the_link = {"see", "drive", "ack"}
+    for name in set(ORDERS) - by_the_link:
+        assert callable(getattr(Conductor, f"_do_{name}"))
