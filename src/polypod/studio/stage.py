@@ -9,6 +9,8 @@ import numpy as np
 
 from polypod.command import FARTHEST
 from polypod.errors import PolypodError, SettingError
+from polypod.gait.follow import PINNED, next_rung
+from polypod.gait.library import make_gait
 from polypod.gait.validation import GaitCheck, check_gait
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
@@ -92,11 +94,15 @@ class Stage:
         gait = gait_of(self.document, herd.morphology)
         speed = float(herd.command.arrays.speed[0])
         if gait is None:
-            from polypod.gait.library import make_gait
-
             legs = herd.tables.legs
-            gait = make_gait(herd.gait_name[0], legs.side, legs.row)
+            gait = make_gait(herd.gait_name[0] or self._gait_at(speed), legs.side, legs.row)
         return check_gait(gait, herd.morphology, speed=speed)
+
+    def _gait_at(self, speed: float) -> str:
+        """Return what a creature will walk in that let go of its gait since the last step."""
+        tables = self.herd.tables
+        length = tables.hip_height if tables.upright else tables.leg_length
+        return self.herd.ladder[next_rung(PINNED, speed, length, tables.ladder.limit)]
 
     def _rig(self, asked: Mapping[str, Any]) -> Morphology:
         """Return a creature, read once for all that is said of it."""
