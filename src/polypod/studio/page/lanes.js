@@ -7,11 +7,18 @@ export const LANES = [
   {
     key: "height", title: "Body height", unit: "m", digits: 3, level: (sample) => sample.level,
     now: (sample) => sample.height,
+    lines: () => [{ colour: "#ffffff", of: (sample) => sample.height, strong: true }],
+    about: "The body's height over the plane of its feet",
+  },
+  {
+    // Apart from the body's own height, which is often a hundredth of theirs.
+    key: "particles", title: "Particles", unit: "m", digits: 3, level: (sample) => sample.level,
+    now: (sample) => sample.height,
     lines: (feet) => [
       ...feet.map(({ colour }, k) => ({ colour, of: (sample) => sample.level + sample.particle[k] })),
       { colour: "#ffffff", of: (sample) => sample.height, strong: true },
     ],
-    about: "The body's height over the plane of its feet, in white, and that of each foot's own particle",
+    about: "The height to which each foot would move the body if it were alone, and the body's, which is their mean, in white",
   },
   {
     key: "feet", title: "Foot heights", unit: "m", digits: 3, floor: 0,

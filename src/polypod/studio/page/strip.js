@@ -11,7 +11,7 @@ import { addStyle, button, html, kept, shown } from "/page/svg.js";
 const SECONDS = 4; // shown live
 const FRAMES_A_SECOND = 15;
 const LONGEST_GAP = 0.3; // s between two samples that a line joins
-const AT_FIRST = ["footfalls", "height"];
+const AT_FIRST = ["footfalls", "height", "particles"];
 
 export function mountStrip(element, store) {
   addStyle("strip.css");
