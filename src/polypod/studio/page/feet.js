@@ -1,42 +1,47 @@
 // The Feet panel: where feet prefer to stand, seen from above.
 
-import { addStyle, button, html, kept } from "/page/svg.js";
-import { NumberField } from "/page/number_field.js";
+import { addStyle, fillChoice, make, makeButton, makeChoice, makeSection } from "/page/elements.js";
+import { Figure } from "/page/figure.js";
+import { documentSlider } from "/page/slider.js";
+import { shiftOf } from "/page/spacing.js";
 import { SpacingEditor } from "/page/spacing_edit.js";
 import { SpacingView } from "/page/spacing_view.js";
-import { shiftOf } from "/page/spacing.js";
+import { Switch } from "/page/switches.js";
 
 export function mountFeet(element, store) {
+  addStyle("panels.css");
   addStyle("gait.css");
   addStyle("feet.css");
-  const symmetric = kept("Symmetric", "polypod.feet.symmetric", true, () => {}, { title: "The foot on the other side goes along, mirrored" });
-  const editor = new SpacingEditor(store, { get symmetric() { return symmetric.on; } });
+  const symmetric = new Switch("Symmetric", "polypod.feet.symmetric", true, () => {}, {
+    title: "The foot on the other side goes along, mirrored",
+  });
+  const editor = new SpacingEditor(store, symmetric);
   const view = new SpacingView(store, editor, (k) => foot.choose(k));
   const foot = new FootPlace(store, editor, (k) => view.mark(k));
   element.append(
-    html("div", { class: "row" }, symmetric.element,
-      button("Reset this foot", () => foot.reset()), button("Reset all", () => editor.resetAll())),
+    make("div", { class: "row" }, symmetric.element,
+      makeButton("Reset this foot", () => foot.reset()), makeButton("Reset all", () => editor.resetAll())),
     view.element,
     makeLegend(),
-    foot.element,
-    makeWidth(store),
+    makeSection("One foot", foot.element),
+    makeSection("All feet", makeWidth(store)),
   );
 }
 
 function makeLegend() {
-  const item = (kind, words) => html("span", {}, html("span", { class: `legend-${kind}` }), words);
-  return html("div", { class: "wheel-legend quiet", "aria-hidden": "true" },
-    item("place", "preferred place: drag it"), item("sole", "foot now"), item("target", "target ×"),
-    item("wish", "preferred on the way"), item("rest", "rest +"));
+  const item = (kind, words) => make("span", {}, make("span", { class: `legend-${kind}` }), words);
+  return make("div", { class: "wheel-legend quiet", "aria-hidden": "true" },
+    item("place", "preferred place: drag it"), make("span", {}, "+ rest"),
+    item("sole", "foot now"), make("span", {}, "× target"), item("wish", "preferred in this stride"));
 }
 
 function makeWidth(store) {
-  const width = new NumberField({
-    label: "Stance width", unit: "", slide: true,
-    commit: (value, gesture) => store.edit(["command", "stance_width"], value, gesture),
+  const width = documentSlider(store, {
+    label: "Stance width", at: ["command", "stance_width"], range: () => store.creature.ranges.stance_width,
   });
-  store.on("creature", () => width.bound(store.creature.ranges.stance_width));
-  store.on("document", () => width.show(store.document.command.stance_width));
+  const refresh = () => { if (store.document && store.creature) width.refresh(); };
+  store.on("creature", refresh);
+  store.on("document", refresh);
   return width.element;
 }
 
@@ -47,17 +52,15 @@ class FootPlace {
     this.editor = editor;
     this.mark = mark;
     this.foot = 0;
-    this.choice = html("select", { id: "spacing-foot" });
-    this.choice.addEventListener("change", () => this.choose(Number(this.choice.value)));
-    const make = (label, axis) => new NumberField({
-      label, unit: "m", digits: 4, fallback: 0, commit: async (value) => this.put(axis, value),
-    });
-    this.axes = [make("Left of rest", 0), make("Forward of rest", 1)];
-    this.element = html("div", { class: "foot-numbers" },
-      html("div", { class: "row" }, html("label", { for: "spacing-foot" }, "Foot"), this.choice),
-      ...this.axes.map((axis) => axis.element));
+    this.choice = makeChoice("Foot", (k) => this.choose(Number(k)));
+    this.figures = ["Left of rest", "Ahead of rest"].map((label, axis) => new Figure({
+      label, unit: "m", decimals: 4, standard: () => 0,
+      read: () => shiftOf(store, this.foot)[axis],
+      write: (value) => this.put(axis, value),
+    }));
+    this.element = make("div", { class: "figures" }, this.choice, ...this.figures.map((figure) => figure.element));
     store.on("creature", () => this.list());
-    store.on("document", () => this.show());
+    store.on("document", () => this.refresh());
     this.list();
   }
 
@@ -73,19 +76,19 @@ class FootPlace {
 
   list() {
     const feet = this.store.creature?.feet ?? [];
-    this.choice.replaceChildren(...feet.map(({ name }, k) => html("option", { value: k }, name)));
-    this.choose(this.foot < feet.length ? this.foot : 0);
+    if (this.foot >= feet.length) this.foot = 0;
+    fillChoice(this.choice, feet.map(({ name }, k) => [String(k), name]), String(this.foot));
+    this.choose(this.foot);
   }
 
   choose(k) {
     this.foot = k;
     this.choice.value = String(k);
     this.mark(k);
-    this.show();
+    this.refresh();
   }
 
-  show() {
-    const shift = shiftOf(this.store, this.foot);
-    this.axes.forEach((axis, n) => axis.show(shift[n]));
+  refresh() {
+    for (const figure of this.figures) figure.refresh();
   }
 }

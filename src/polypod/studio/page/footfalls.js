@@ -1,9 +1,10 @@
 // The footfall diagram as animators know it: a row a foot, a bar where it stands, time scrolls.
 // Left of the line is what was, right of it what the gait asked for says will be.
 
-import { disksOf, needleNow, wrap } from "/page/disks.js";
 import { cut, fit, palette, redraw } from "/page/canvas.js";
-import { html, shown } from "/page/svg.js";
+import { disksOf, needleNow, wrap } from "/page/disks.js";
+import { make } from "/page/elements.js";
+import { shown } from "/page/switches.js";
 
 const NAMES = 84; // px, for the feet's names
 const AXIS = 16; // px, for the time below
@@ -18,7 +19,7 @@ export class Footfalls {
   constructor(store, history) {
     this.store = store;
     this.history = history;
-    this.canvas = html("canvas", { class: "footfalls", role: "img", "aria-label": "Footfalls: what was, and what the gait asks for" });
+    this.canvas = make("canvas", { class: "footfalls", role: "img", "aria-label": "Footfalls: what was, and what the gait asks for" });
     this.element = this.canvas;
     const again = redraw(FRAMES_A_SECOND, () => this.draw());
     for (const kind of ["frame", "document", "creature"]) store.on(kind, again);

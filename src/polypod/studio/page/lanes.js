@@ -3,7 +3,7 @@
 // `lines(feet)`: [{colour, of(sample), strong}], `floor`: a value that is always in sight.
 // A lane without lines shows the feet's stances.
 export const LANES = [
-  { key: "footfalls", title: "Footfalls" },
+  { key: "footfalls", title: "Footfalls", about: "When each foot stands" },
   {
     key: "height", title: "Body height", unit: "m", digits: 3, level: (sample) => sample.level,
     now: (sample) => sample.height,

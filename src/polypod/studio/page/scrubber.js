@@ -1,8 +1,7 @@
 // A slider over what was recorded: drag or keys show a frame of it.
 
+import { make } from "/page/elements.js";
 import { tapeRate } from "/page/history.js";
-import { Newest } from "/page/newest.js";
-import { html } from "/page/svg.js";
 
 const PATIENCE = 1000; // ms for which the next stroke goes on from where the last one is to lead
 
@@ -10,10 +9,10 @@ export class Scrubber {
   constructor(store) {
     this.store = store;
     this.wanted = null;
-    this.sender = new Newest((frame) => (
-      store.send({ do: "scrub", frame }).catch((refusal) => store.say(refusal.message))));
-    this.knob = html("div", { class: "scrub-knob" });
-    this.element = html("div", {
+    this.busy = false;
+    this.waits = false;
+    this.knob = make("div", { class: "scrub-knob" });
+    this.element = make("div", {
       class: "scrub", role: "slider", tabindex: 0, "aria-label": "Recorded time",
       "aria-valuemin": 0, "aria-orientation": "horizontal",
     }, this.knob);
@@ -36,12 +35,26 @@ export class Scrubber {
   go(frame) {
     const wanted = Math.min(Math.max(Math.round(frame), 0), this.last);
     this.wanted = { frame: wanted, at: performance.now() };
-    this.sender.push(wanted);
+    this.order(wanted);
   }
 
   live() {
     this.wanted = null;
-    this.sender.push(null);
+    this.order(null);
+  }
+
+  // One order is on its way at a time, and only the newest after it.
+  async order(frame) {
+    this.next = frame;
+    this.waits = true;
+    if (this.busy) return;
+    this.busy = true;
+    while (this.waits) {
+      this.waits = false;
+      const order = { do: "scrub", frame: this.next };
+      await this.store.send(order).catch((refusal) => this.store.say(refusal.message));
+    }
+    this.busy = false;
   }
 
   press(event) {

@@ -1,8 +1,9 @@
 // The creature from above, its front up: body, bones and feet as they are, and the places that feet
 // prefer, to be dragged.
 
-import { html, shown, svg } from "/page/svg.js";
+import { make, makeSvg } from "/page/elements.js";
 import { jointPlace, placeOf, restOf, shiftOf, viewFrom } from "/page/spacing.js";
+import { shown } from "/page/switches.js";
 
 const WIDTH = 348;
 const HEIGHT = 360;
@@ -14,8 +15,8 @@ export class SpacingView {
     this.store = store;
     this.editor = editor;
     this.chosen = chosen; // called with the foot that is touched
-    this.picture = svg("svg", { viewBox: `${-WIDTH / 2} ${-HEIGHT / 2} ${WIDTH} ${HEIGHT}`, class: "spacing", role: "group", "aria-label": "Feet from above, front up" });
-    this.element = html("div", {}, this.picture);
+    this.picture = makeSvg("svg", { viewBox: `${-WIDTH / 2} ${-HEIGHT / 2} ${WIDTH} ${HEIGHT}`, class: "spacing", role: "group", "aria-label": "Feet from above, front up" });
+    this.element = make("div", {}, this.picture);
     this.feet = [];
     store.on("creature", () => this.build());
     store.on("document", () => this.showPlaces());
@@ -29,9 +30,9 @@ export class SpacingView {
     if (!creature || made === this.made) return;
     this.made = made;
     this.fitScale(creature);
-    this.bones = svg("path", { class: "spacing-bones" });
-    this.spine = svg("path", { class: "spacing-spine" });
-    this.hull = svg("polygon", { class: "spacing-hull" });
+    this.bones = makeSvg("path", { class: "spacing-bones" });
+    this.spine = makeSvg("path", { class: "spacing-spine" });
+    this.hull = makeSvg("polygon", { class: "spacing-hull" });
     this.feet = creature.feet.map((foot, k) => this.makeFoot(foot, k));
     this.picture.replaceChildren(
       this.makeGrid(), this.makeBody(creature.body), this.hull, this.bones, this.spine,
@@ -59,13 +60,13 @@ export class SpacingView {
   }
 
   makeGrid() {
-    const grid = svg("g", { class: "spacing-grid" });
+    const grid = makeSvg("g", { class: "spacing-grid" });
     const step = this.gridMetres() * this.scale;
     for (let x = -Math.floor(WIDTH / 2 / step); x * step < WIDTH / 2; x++) {
-      grid.append(svg("path", { d: `M${x * step} ${-HEIGHT / 2}V${HEIGHT / 2}` }));
+      grid.append(makeSvg("path", { d: `M${x * step} ${-HEIGHT / 2}V${HEIGHT / 2}` }));
     }
     for (let y = -Math.floor(HEIGHT / 2 / step); y * step < HEIGHT / 2; y++) {
-      grid.append(svg("path", { d: `M${-WIDTH / 2} ${y * step}H${WIDTH / 2}` }));
+      grid.append(makeSvg("path", { d: `M${-WIDTH / 2} ${y * step}H${WIDTH / 2}` }));
     }
     return grid;
   }
@@ -79,33 +80,33 @@ export class SpacingView {
     const [x, y] = this.at([centre[0], centre[2]]);
     const [width, height] = [half[0] * this.scale, half[2] * this.scale];
     const nose = `M${x - width * 0.5} ${y - height}L${x} ${y - height - Math.min(width, 14)}L${x + width * 0.5} ${y - height}Z`;
-    return svg("g", { class: "spacing-body" },
-      svg("rect", { x: x - width, y: y - height, width: 2 * width, height: 2 * height, rx: Math.min(width, height) * 0.4 }),
-      svg("path", { d: nose }));
+    return makeSvg("g", { class: "spacing-body" },
+      makeSvg("rect", { x: x - width, y: y - height, width: 2 * width, height: 2 * height, rx: Math.min(width, height) * 0.4 }),
+      makeSvg("path", { d: nose }));
   }
 
   makeWords() {
-    const words = (x, y, text) => svg("text", { class: "spacing-words", x, y }, text);
+    const words = (x, y, text) => makeSvg("text", { class: "spacing-words", x, y }, text);
     return [words(0, -HEIGHT / 2 + 13, "front"), words(-WIDTH / 2 + 16, 0, "left"), words(WIDTH / 2 - 18, 0, "right"),
       words(0, HEIGHT / 2 - 6, `a square is ${Number(this.gridMetres().toPrecision(1))} m`)];
   }
 
   makeFoot(foot, k) {
-    const rest = svg("path", { class: "spacing-rest", d: "M-5 0H5M0 -5V5" });
-    const tie = svg("line", { class: "spacing-tie", stroke: foot.colour });
-    const preferred = svg("circle", { class: "spacing-preferred", r: 5, stroke: foot.colour });
-    const target = svg("path", { class: "spacing-target", d: "M-4 -4L4 4M-4 4L4 -4", stroke: foot.colour });
-    const sole = svg("circle", { class: "spacing-sole", r: 4, fill: foot.colour });
-    const handle = svg("g", {
+    const rest = makeSvg("path", { class: "spacing-rest", d: "M-5 0H5M0 -5V5" });
+    const tie = makeSvg("line", { class: "spacing-tie", stroke: foot.colour });
+    const preferred = makeSvg("circle", { class: "spacing-preferred", r: 5, stroke: foot.colour });
+    const target = makeSvg("path", { class: "spacing-target", d: "M-4 -4L4 4M-4 4L4 -4", stroke: foot.colour });
+    const sole = makeSvg("circle", { class: "spacing-sole", r: 4, fill: foot.colour });
+    const handle = makeSvg("g", {
       class: "spacing-foot", tabindex: 0, role: "button", "aria-roledescription": "movable place",
       "data-foot": k,
     },
-    svg("circle", { class: "spacing-touch", r: FINGER }),
-    svg("circle", { class: "spacing-knob", r: 8.5, stroke: foot.colour, fill: foot.colour }));
+    makeSvg("circle", { class: "spacing-touch", r: FINGER }),
+    makeSvg("circle", { class: "spacing-knob", r: 8.5, stroke: foot.colour, fill: foot.colour }));
     this.editor.bindKeys(handle, k);
     this.editor.bindPointer(handle, k, (event) => this.pointerPlace(event));
     handle.addEventListener("focus", () => this.chosen(k));
-    return { foot, rest, tie, preferred, target, sole, handle, live: svg("g", {}, tie, preferred, target, sole) };
+    return { foot, rest, tie, preferred, target, sole, handle, live: makeSvg("g", {}, tie, preferred, target, sole) };
   }
 
   pointerPlace(event) {

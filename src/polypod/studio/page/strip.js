@@ -2,11 +2,12 @@
 // a scrubber.
 
 import { fit, redraw } from "/page/canvas.js";
+import { addStyle, make, makeButton } from "/page/elements.js";
 import { historyOf } from "/page/history.js";
 import { LANES } from "/page/lanes.js";
 import { drawPlots, GUTTER } from "/page/plots.js";
 import { Scrubber } from "/page/scrubber.js";
-import { addStyle, button, html, kept, shown } from "/page/svg.js";
+import { shown, Switch } from "/page/switches.js";
 
 const SECONDS = 4; // shown live
 const FRAMES_A_SECOND = 15;
@@ -25,17 +26,17 @@ class Strip {
     this.history = historyOf(store);
     this.scrubber = new Scrubber(store);
     this.again = redraw(FRAMES_A_SECOND, () => this.draw());
-    this.switches = LANES.map((lane) => kept(lane.title, `polypod.strip.${lane.key}`, AT_FIRST.includes(lane.key),
-      () => this.change(), { title: lane.about ?? "When each foot stands" }));
-    this.liveButton = button("Live", () => this.scrubber.live(), { title: "The walk as it goes on (Escape on the slider)" });
-    this.tapeButton = button("Recorded", () => this.scrubber.go(0), { title: "What was recorded, from its beginning" });
-    this.time = html("output", { class: "strip-time quiet" });
-    this.canvas = html("canvas", { role: "img", "aria-label": "Plots against time" });
-    this.cursor = html("div", { class: "strip-cursor" });
-    this.plots = html("div", { class: "strip-plots" }, this.canvas, this.cursor);
-    this.element = html("div", { class: "strip" },
-      html("div", { class: "strip-head" }, this.liveButton, this.tapeButton,
-        html("div", { class: "strip-lanes", role: "group", "aria-label": "Plots to show" }, ...this.switches.map((lane) => lane.element)),
+    this.switches = LANES.map((lane) => new Switch(
+      lane.title, `polypod.strip.${lane.key}`, AT_FIRST.includes(lane.key), () => this.change(), { title: lane.about }));
+    this.liveButton = makeButton("Live", () => this.scrubber.live(), { title: "The walk as it goes on (Escape on the slider)" });
+    this.tapeButton = makeButton("Recorded", () => this.scrubber.go(0), { title: "What was recorded, from its beginning" });
+    this.time = make("output", { class: "strip-time quiet" });
+    this.canvas = make("canvas", { role: "img", "aria-label": "Plots against time" });
+    this.cursor = make("div", { class: "strip-cursor" });
+    this.plots = make("div", { class: "strip-plots" }, this.canvas, this.cursor);
+    this.element = make("div", { class: "strip" },
+      make("div", { class: "strip-head" }, this.liveButton, this.tapeButton,
+        make("div", { class: "strip-lanes", role: "group", "aria-label": "Plots to show" }, ...this.switches.map((lane) => lane.element)),
         this.time),
       this.plots, this.scrubber.element);
     this.scrubber.bind(this.plots, GUTTER, () => this.scrubbing);

@@ -2,8 +2,8 @@
 // clockwise. The filled disk is what the foot goes by now; the rim with its handles is what is
 // asked for, and both are the same once a blend is over.
 
-import { html, svg } from "/page/svg.js";
 import { percent, rounded } from "/page/disks.js";
+import { make, makeSvg } from "/page/elements.js";
 
 const RADIUS = 44;
 const RIM = 51;
@@ -30,44 +30,44 @@ export class Wheel {
     this.foot = foot;
     this.index = index;
     this.touch = touch;
-    this.swing = svg("path", { class: "wheel-swing", fill: foot.colour });
-    this.reception = svg("path", { class: "wheel-reception" });
-    this.propulsion = svg("path", { class: "wheel-propulsion" });
-    this.middle = svg("line", { class: "wheel-middle", x1: 0, y1: 0 });
-    this.needle = svg("path", { class: "wheel-needle", d: `M0 9L0 -${RADIUS + 2}` });
-    this.rim = svg("path", { class: "wheel-rim", stroke: foot.colour });
-    this.events = svg("g");
+    this.swing = makeSvg("path", { class: "wheel-swing", fill: foot.colour });
+    this.reception = makeSvg("path", { class: "wheel-reception" });
+    this.propulsion = makeSvg("path", { class: "wheel-propulsion" });
+    this.middle = makeSvg("line", { class: "wheel-middle", x1: 0, y1: 0 });
+    this.needle = makeSvg("path", { class: "wheel-needle", d: `M0 9L0 -${RADIUS + 2}` });
+    this.rim = makeSvg("path", { class: "wheel-rim", stroke: foot.colour });
+    this.events = makeSvg("g");
     this.handles = {
       whole: this.makeWhole(),
       start: this.makeHandle("start"),
       finish: this.makeHandle("finish"),
     };
-    this.picture = svg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, role: "group", "aria-label": `${foot.name} wheel` },
-      svg("circle", { class: "wheel-back", r: RADIUS }),
+    this.picture = makeSvg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, role: "group", "aria-label": `${foot.name} wheel` },
+      makeSvg("circle", { class: "wheel-back", r: RADIUS }),
       this.reception, this.propulsion, this.middle, this.swing, this.makeTicks(), this.rim, this.events,
-      this.handles.whole, this.needle, svg("circle", { class: "wheel-hub", r: 3 }),
+      this.handles.whole, this.needle, makeSvg("circle", { class: "wheel-hub", r: 3 }),
       this.handles.start, this.handles.finish);
-    this.duty = html("span", { class: "quiet" });
-    this.mark = html("span", { class: "wheel-mark" });
-    const dot = html("span", { class: "foot-dot" });
+    this.duty = make("span", { class: "quiet" });
+    this.mark = make("span", { class: "wheel-mark" });
+    const dot = make("span", { class: "foot-dot" });
     dot.style.background = foot.colour;
-    const name = html("span", { class: "wheel-name", title: foot.name }, foot.name);
-    this.element = html("div", { class: "wheel" }, this.picture, this.mark, html("div", { class: "wheel-words" }, dot, name, this.duty));
+    const name = make("span", { class: "wheel-name", title: foot.name }, foot.name);
+    this.element = make("div", { class: "wheel" }, this.picture, this.mark, make("div", { class: "wheel-words" }, dot, name, this.duty));
     this.element.style.setProperty("--foot", foot.colour);
     this.seen = {};
   }
 
   makeTicks() {
-    const ticks = svg("g", { class: "wheel-ticks" });
+    const ticks = makeSvg("g", { class: "wheel-ticks" });
     for (let n = 0; n < 24; n++) {
       const inner = n % 6 === 0 ? RADIUS - 4 : RADIUS - 2;
-      ticks.append(svg("path", { d: `M${at(n / 24, inner)}L${at(n / 24, RADIUS)}` }));
+      ticks.append(makeSvg("path", { d: `M${at(n / 24, inner)}L${at(n / 24, RADIUS)}` }));
     }
     return ticks;
   }
 
   makeGrip(part, ...shapes) {
-    return svg("g", {
+    return makeSvg("g", {
       class: `wheel-grip wheel-grip-${part}`, tabindex: 0, role: "slider", "data-part": part,
       "aria-label": `${this.foot.name} ${PARTS[part]}`, "aria-valuemin": 0, "aria-valuemax": 100,
     }, ...shapes);
@@ -76,13 +76,13 @@ export class Wheel {
   makeHandle(part) {
     // The finish is a square, so that the two are told apart without their place.
     const shape = part === "start"
-      ? svg("circle", { class: "wheel-knob", r: 5.5 })
-      : svg("rect", { class: "wheel-knob", x: -5, y: -5, width: 10, height: 10 });
-    return this.makeGrip(part, svg("circle", { class: "wheel-touch", r: this.touch }), shape);
+      ? makeSvg("circle", { class: "wheel-knob", r: 5.5 })
+      : makeSvg("rect", { class: "wheel-knob", x: -5, y: -5, width: 10, height: 10 });
+    return this.makeGrip(part, makeSvg("circle", { class: "wheel-touch", r: this.touch }), shape);
   }
 
   makeWhole() {
-    this.wholeShape = svg("path", { class: "wheel-touch" });
+    this.wholeShape = makeSvg("path", { class: "wheel-touch" });
     return this.makeGrip("whole", this.wholeShape);
   }
 
@@ -143,6 +143,6 @@ export class Wheel {
   // While it is dragged: where other feet lift and land, to which it snaps.
   showEvents(events) {
     this.events.replaceChildren(...events.map(({ phase, colour }) => (
-      svg("path", { class: "wheel-event", stroke: colour, d: `M${at(phase, RIM + 3)}L${at(phase, RIM + 10)}` }))));
+      makeSvg("path", { class: "wheel-event", stroke: colour, d: `M${at(phase, RIM + 3)}L${at(phase, RIM + 10)}` }))));
   }
 }

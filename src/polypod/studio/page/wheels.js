@@ -1,9 +1,10 @@
 // All wheels, laid out as the creature stands: left and right by side, fore above hind.
 
 import { disksInUse, disksOf, isDrawn, needleNow } from "/page/disks.js";
-import { html, shown } from "/page/svg.js";
-import { bindWheel } from "/page/wheels_edit.js";
+import { make } from "/page/elements.js";
+import { shown } from "/page/switches.js";
 import { HALF, Wheel } from "/page/wheel.js";
+import { bindWheel } from "/page/wheels_edit.js";
 
 const SIZES = [[2, 132], [3, 108]]; // rows, and pixels of a wheel
 const SMALLEST = 84;
@@ -15,7 +16,7 @@ export class Wheels {
     this.editor = editor;
     this.chosen = chosen; // called with the foot whose wheel is touched
     this.wheels = [];
-    this.element = html("div", { class: "wheels", role: "group", "aria-label": "Gait wheels" });
+    this.element = make("div", { class: "wheels", role: "group", "aria-label": "Gait wheels" });
     store.on("creature", () => this.build());
     store.on("document", () => this.showAsked());
     store.on("frame", () => this.showFrame());
@@ -49,7 +50,7 @@ export class Wheels {
   }
 
   makeRow(row) {
-    const line = html("div", { class: "wheel-row" });
+    const line = make("div", { class: "wheel-row" });
     for (const side of [1, 0, -1]) {
       const there = this.wheels.filter(({ foot }) => foot.row === row && Math.sign(foot.side) === side);
       line.append(...there.map(({ element }) => element));

@@ -1,31 +1,34 @@
 // Hands on the wheels: pointer and keys move a sector's start, its finish or the whole of it.
 
 import { disksOf, eventsOf, isDrawn, partnerOf, shiftedDisks, shortWay, snappedShift, wrap } from "/page/disks.js";
-import { KeyGesture, Newest } from "/page/newest.js";
-import { newGesture } from "/page/store.js";
+import { Gesture } from "/page/gesture.js";
 
-const EDITED = "edited"; // what a gait is called that was changed by hand
+const DRAWN = "edited"; // what a gait is called that was changed by hand
+const PAUSE = 900; // ms between two key strokes that are still one gesture
 const KEY_STEP = 0.01; // of the cycle
 const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
 
 // Changes of the gait: every edit states all disks, so that what is asked for is whole.
 export class GaitEditor {
-  // `options` says `snap` and `mirror` as they are now.
-  constructor(store, options) {
+  // `snap` and `mirror` are switches.
+  constructor(store, snap, mirror) {
     this.store = store;
-    this.options = options;
-    this.keys = new KeyGesture();
-    this.origin = null; // the disks before they were edited: what a number's default is
-    this.sender = new Newest(({ disks, gesture }) => (
-      store.edit(["gait"], { name: EDITED, start: disks.start, extent: disks.extent }, gesture)));
+    this.snap = snap;
+    this.mirror = mirror;
+    this.gesture = new Gesture(store);
+    this.stroked = null; // what keys are moving: the grip, and how far it went
+    this.origin = null; // the disks before they were drawn anew: what a number's default is
+    store.on("creature", () => { this.origin = null; });
   }
 
   // What a gesture on foot k begins from, or null while nothing is known.
   begin(k) {
     const disks = disksOf(this.store);
     if (!disks) return null;
+    this.gesture.begin();
+    this.stroked = null;
     if (!isDrawn(this.store)) this.origin = disks;
-    const partner = this.options.mirror ? partnerOf(this.store.creature.feet, k) : -1;
+    const partner = this.mirror.on ? partnerOf(this.store.creature.feet, k) : -1;
     return { k, disks: { start: [...disks.start], extent: [...disks.extent] }, partner };
   }
 
@@ -34,40 +37,43 @@ export class GaitEditor {
     return eventsOf(disks, [k, partner]);
   }
 
-  shift(grip, part, delta, gesture) {
-    this.sender.push({ disks: shiftedDisks(grip.disks, grip.k, part, delta, grip.partner), gesture });
+  shift(grip, part, delta) {
+    const disks = shiftedDisks(grip.disks, grip.k, part, delta, grip.partner);
+    this.gesture.edit(["gait"], { name: DRAWN, ...disks });
   }
 
-  drag(grip, part, delta, free, gesture) {
+  drag(grip, part, delta, free) {
     const disk = { start: grip.disks.start[grip.k], extent: grip.disks.extent[grip.k] };
-    const snaps = this.options.snap && !free;
-    const moved = snaps ? snappedShift(disk, part, delta, this.events(grip)) : delta;
-    this.shift(grip, part, moved, gesture);
+    const snaps = this.snap.on && !free;
+    this.shift(grip, part, snaps ? snappedShift(disk, part, delta, this.events(grip)) : delta);
   }
 
-  // A stroke of an arrow key: strokes in a row add up, though the server may not have answered yet.
+  // A stroke of an arrow key. Strokes in a row are one gesture and add up, though the server may
+  // not have answered the first yet.
   stroke(k, part, delta) {
-    const { name, fresh } = this.keys.stroke(`${k} ${part}`);
-    if (fresh) {
-      this.grip = this.begin(k);
-      this.moved = 0;
+    const now = performance.now();
+    const goes = this.stroked?.handle === `${k} ${part}` && now - this.stroked.at < PAUSE;
+    if (!goes) {
+      const grip = this.begin(k);
+      if (!grip) return;
+      this.stroked = { handle: `${k} ${part}`, grip, moved: 0 };
     }
-    if (!this.grip) return;
-    this.moved += delta;
-    this.shift(this.grip, part, this.moved, name);
+    this.stroked.at = now;
+    this.stroked.moved += delta;
+    this.shift(this.stroked.grip, part, this.stroked.moved);
   }
 
   // A phase typed for a start or a finish.
   put(k, part, phase) {
     const grip = this.begin(k);
     if (!grip) return;
-    const { start, extent } = grip.disks;
+    const start = grip.disks.start[k];
+    const extent = grip.disks.extent[k];
     // A swing from lift-off to touchdown, wherever on the circle both are.
     const delta = part === "start"
-      ? extent[k] - wrap(start[k] + extent[k] - phase)
-      : wrap(phase - start[k]) - extent[k];
-    this.shift(grip, part, delta, newGesture());
-    this.keys.end();
+      ? extent - wrap(start + extent - phase)
+      : wrap(phase - start) - extent;
+    this.shift(grip, part, delta);
   }
 }
 
@@ -99,8 +105,7 @@ function bindPointer(wheel, part, handle, editor) {
     event.preventDefault();
     handle.focus({ preventScroll: true });
     handle.setPointerCapture(event.pointerId);
-    editor.keys.end();
-    drag = { grip, gesture: newGesture(), last: phaseAt(event), turned: 0 };
+    drag = { grip, last: phaseAt(event), turned: 0 };
     const { feet } = editor.store.creature;
     wheel.showEvents(editor.events(grip).map(({ phase, foot }) => ({ phase, colour: feet[foot].colour })));
     wheel.element.classList.add("held");
@@ -111,7 +116,7 @@ function bindPointer(wheel, part, handle, editor) {
     // Turns add up, so that a hand that goes round past the top goes on.
     drag.turned += shortWay(phase - drag.last);
     drag.last = phase;
-    editor.drag(drag.grip, part, drag.turned, event.altKey, drag.gesture);
+    editor.drag(drag.grip, part, drag.turned, event.altKey);
   });
   const end = () => {
     drag = null;
