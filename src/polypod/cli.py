@@ -27,6 +27,7 @@ JOBS = {
     "walk": "make a creature walk",
     "rig": "say what was found in a rig",
     "gait": "list gaits, or show one",
+    "studio": "design a walk with your hands, on a page",
     "bench": "measure this machine, beside the paper's own figures",
     "warmup": "compile everything now",
 }

@@ -22,6 +22,8 @@ from polypod.rigs.meshes import Geometry
 FloatArray = NDArray[np.float64]
 
 LARGEST_IMAGE = 1 << 26  # pixels; more is taken for an attack, not for a texture
+# What glTF may hold. Pillow would hand others, such as PostScript, to programs on this computer.
+FORMATS = ("PNG", "JPEG", "WEBP")
 
 
 class ColourReader:
@@ -106,7 +108,7 @@ class ColourReader:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                image = Image.open(io.BytesIO(data))
+                image = Image.open(io.BytesIO(data), formats=FORMATS)
                 if image.width * image.height > LARGEST_IMAGE:
                     return None
                 return np.asarray(image.convert("RGB"))

@@ -159,7 +159,8 @@ class Runner:
             self._carry_out_work()
             now = time.perf_counter()
             step = STEP / conductor.rate
-            if not conductor.playing:
+            # Nobody looks: it costs nothing then, and goes on when somebody comes back.
+            if not conductor.playing or not self._listeners:
                 due, began, walked = now, now, 0.0
                 conductor.rest(now)
                 self._sleep(IDLE)

@@ -1,0 +1,65 @@
+"""What may be taken away: the walk as a GLB and a record, what is asked for as files."""
+
+from __future__ import annotations
+
+import copy
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from polypod.errors import SettingError
+from polypod.report.record import Recording, write_record
+from polypod.rigs.export import glb_bytes
+from polypod.studio.conductor import Conductor
+from polypod.studio.document import Document
+from polypod.studio.rigs_given import GivenRigs
+from polypod.studio.scenes import creature_toml, scene_toml
+
+
+class Export(NamedTuple):
+    """How a file is made: what is read between two frames, and how it is written after."""
+
+    kind: str  # as browsers call it
+    read: Callable[..., Any]  # (conductor, creature)
+    write: Callable[[Any, GivenRigs], bytes]
+
+
+def _walk(conductor: Conductor, creature: int) -> Recording:
+    if conductor.tape is None:
+        raise SettingError("nothing is recorded; press record and let it walk for a while")
+    walks = conductor.tape.walks()
+    if creature >= len(walks):
+        raise SettingError(f"there is no creature {creature}; {len(walks)} were recorded")
+    return walks[creature]
+
+
+def _document(conductor: Conductor, creature: int) -> Document:
+    return copy.deepcopy(conductor.stage.document)
+
+
+def _glb(walk: Recording, rigs: GivenRigs) -> bytes:
+    return glb_bytes(walk)
+
+
+def _npz(walk: Recording, rigs: GivenRigs) -> bytes:
+    with tempfile.TemporaryDirectory(prefix="polypod-studio-") as folder:
+        file = Path(folder) / "walk.npz"
+        write_record(walk, file)
+        return file.read_bytes()
+
+
+def _scene(document: Document, rigs: GivenRigs) -> bytes:
+    return scene_toml(document, rigs).encode()
+
+
+def _creature(document: Document, rigs: GivenRigs) -> bytes:
+    return creature_toml(document["creature"], rigs).encode()
+
+
+EXPORTS = {
+    "walk.glb": Export("model/gltf-binary", _walk, _glb),
+    "walk.npz": Export("application/octet-stream", _walk, _npz),
+    "scene.toml": Export("application/toml", _document, _scene),
+    "creature.toml": Export("application/toml", _document, _creature),
+}
