@@ -12,6 +12,7 @@ export class Gesture {
     this.settled = settled;
     this.name = newGesture();
     this.waiting = new Map();
+    this.asked = new Map(); // the last of each place that has not been answered
     this.busy = false;
     this.last = 0;
   }
@@ -26,6 +27,7 @@ export class Gesture {
     const now = performance.now();
     this.last = now;
     this.waiting.set(JSON.stringify(at), { at, to, name: this.name });
+    this.asked.set(JSON.stringify(at), to);
     this.flush();
   }
 
@@ -34,9 +36,9 @@ export class Gesture {
     if (performance.now() - this.last > PAUSE) this.begin();
   }
 
-  // What is asked for `at` and has not been sent yet, or undefined.
+  // What was asked for `at` and is not in the document yet, or undefined.
   pending(at) {
-    return this.waiting.get(JSON.stringify(at))?.to;
+    return this.asked.get(JSON.stringify(at));
   }
 
   async flush() {
@@ -48,6 +50,7 @@ export class Gesture {
       await this.store.edit(at, to, name);
     }
     this.busy = false;
+    this.asked.clear();
     this.settled();
   }
 }
