@@ -169,11 +169,11 @@ def test_pushes_are_judged() -> None:
 def test_who_lets_go_of_a_gait_is_judged_by_the_one_that_its_speed_asks_for() -> None:
     stage = stage_of()
     walk(stage, 0.5)
-    followed = stage.verdict().gait.name
-    gait = stage.verdict().gait
+    followed = stage.question().gait.name
+    gait = stage.question().gait
     start, extent = gait.swing_start.tolist(), gait.swing_extent.tolist()
     drawn = {"name": "edited", "start": start, "extent": extent}
     change(stage, "gait", to=drawn)
-    assert stage.verdict().gait.name == "edited"
+    assert stage.question().gait.name == "edited"
     change(stage, "gait", to=None)
-    assert stage.verdict().gait.name == followed
+    assert stage.question().gait.name == followed
