@@ -41,6 +41,20 @@ def in_use(tab: Any, foot: int) -> tuple[float, float]:
     return start, extent
 
 
+def settle(tab: Any) -> None:
+    """Open the Gait panel, and wait until the walk has got to its speed and its disks stay."""
+    tab.open_panel("Gait")
+
+    def stays() -> bool:
+        before = in_use(tab, LEFT)
+        tab.page.wait_for_timeout(400)
+        now = in_use(tab, LEFT)
+        turns = tab.ask("polypod.frame.focus.speed > 0.05")
+        return turns and max(abs(now[i] - before[i]) for i in (0, 1)) < 1e-3
+
+    tab.until(stays, "it walks steadily")
+
+
 def asked(tab: Any, foot: int) -> tuple[float, float]:
     gait = tab.document["gait"]
     return gait["start"][foot], gait["extent"][foot]
@@ -82,7 +96,7 @@ def turn_handle(tab: Any, foot: int, part: str, cycles: float, *, free: bool = T
 
 
 def test_a_sectors_end_is_dragged_and_the_foot_walks_by_it(tab: Any) -> None:
-    tab.open_panel("Gait")
+    settle(tab)
     before = [in_use(tab, foot) for foot in (LEFT, RIGHT)]
     turn_handle(tab, LEFT, "swing finish", -0.12)
     tab.until(lambda: tab.document["gait"], "the gait is drawn by hand")
@@ -104,7 +118,7 @@ def test_a_sectors_end_is_dragged_and_the_foot_walks_by_it(tab: Any) -> None:
 
 
 def test_handles_snap_to_the_cycles_parts_and_the_others_events(tab: Any) -> None:
-    tab.open_panel("Gait")
+    settle(tab)
     turn_handle(tab, LEFT, "swing start", 0.07, free=False)
     tab.until(lambda: tab.document["gait"], "the gait is drawn by hand")
     tab.page.wait_for_timeout(500)
@@ -117,7 +131,7 @@ def test_handles_snap_to_the_cycles_parts_and_the_others_events(tab: Any) -> Non
 
 
 def test_keys_move_handles_by_a_hundredth_and_by_five(tab: Any) -> None:
-    tab.open_panel("Gait")
+    settle(tab)
     tab.button("Mirror left and right").click()
     start, extent = in_use(tab, LEFT)
     partner = in_use(tab, RIGHT)[0]
@@ -139,7 +153,7 @@ def test_keys_move_handles_by_a_hundredth_and_by_five(tab: Any) -> None:
 
 
 def test_a_duty_is_typed_and_goes_back(tab: Any) -> None:
-    tab.open_panel("Gait")
+    settle(tab)
     tab.page.get_by_role("combobox", name="Foot").select_option(str(LEFT))
     start, extent = in_use(tab, LEFT)
     tab.type_into("Stands for in %", "80")
@@ -153,7 +167,7 @@ def test_a_duty_is_typed_and_goes_back(tab: Any) -> None:
 
 
 def test_a_gait_is_blended_to_and_the_disks_move(tab: Any) -> None:
-    tab.open_panel("Gait")
+    settle(tab)
     tab.type_into("Blend in in cycles", "3")
     tab.until(lambda: tab.document["command"]["blend_cycles"] == 3.0, "it blends in 3 cycles")
     choice = tab.page.get_by_role("combobox", name="Gait")
@@ -175,7 +189,7 @@ def test_a_gait_is_blended_to_and_the_disks_move(tab: Any) -> None:
 
 
 def test_a_gait_that_none_can_walk_is_told_while_it_is_drawn(tab: Any) -> None:
-    tab.open_panel("Gait")
+    settle(tab)
     badge = tab.page.get_by_role("status", name="Plausibility")
     tab.until(lambda: "plausible" in badge.text_content(), "the gait is judged")
     assert "implausible" not in badge.text_content()
@@ -275,7 +289,7 @@ def test_what_is_recorded_is_scrubbed_by_keys_and_by_the_mouse(tab: Any) -> None
     for _ in range(5):
         slider.press("ArrowRight")
     tab.until(lambda: tab.ask("polypod.frame.tapeFrame") == 5, "frame 5 of the tape is shown")
-    assert slider.get_attribute("aria-valuenow") == "5"
+    tab.until(lambda: slider.get_attribute("aria-valuenow") == "5", "the slider says so")
     plots = tab.page.locator(".strip-plots").bounding_box()
     gutter = 112
     x = plots["x"] + gutter + 0.5 * (plots["width"] - gutter)

@@ -4,6 +4,7 @@
 import { cut, fit, palette, redraw } from "/page/canvas.js";
 import { disksOf, needleNow, wrap } from "/page/disks.js";
 import { make } from "/page/elements.js";
+import { shortNames } from "/page/foot_names.js";
 import { shown } from "/page/switches.js";
 
 const NAMES = 84; // px, for the feet's names
@@ -29,6 +30,7 @@ export class Footfalls {
 
   size() {
     const count = this.store.creature?.feet.length ?? 4;
+    this.names = shortNames(this.store.creature?.feet ?? []);
     this.row = count > 16 ? 7 : count > 8 ? 11 : 15;
     this.canvas.style.height = `${count * this.row + AXIS + 4}px`;
   }
@@ -45,7 +47,7 @@ export class Footfalls {
     this.order = feet.map((_, k) => k).sort((a, b) => feet[b].row - feet[a].row || feet[b].side - feet[a].side);
     this.drawAxis(context, scale, past);
     this.drawNames(context, feet);
-    if (frame.tapeFrame === null) this.drawPast(context, scale, feet, past);
+    this.drawPast(context, scale, feet, frame, past);
     this.drawFuture(context, scale, feet, cycleRate);
     context.fillStyle = palette().text;
     context.fillRect(Math.round(line) - 0.5, 0, 1.5, height - AXIS);
@@ -74,7 +76,7 @@ export class Footfalls {
       context.fillStyle = feet[k].colour;
       context.fillRect(0, row * this.row + 3, 4, this.row - 6);
       context.fillStyle = palette().text;
-      context.fillText(cut(context, feet[k].name, NAMES - 12), 8, (row + 0.5) * this.row + 4);
+      context.fillText(cut(context, this.names[k], NAMES - 12), 8, (row + 0.5) * this.row + 4);
     });
   }
 
@@ -87,8 +89,8 @@ export class Footfalls {
     context.globalAlpha = 1;
   }
 
-  drawPast(context, { line, perSecond }, feet, past) {
-    const samples = this.history.recent(past);
+  drawPast(context, { line, perSecond }, feet, frame, past) {
+    const samples = this.history.before(frame, past).filter(({ stance }) => stance.length === feet.length);
     if (samples.length < 2) return;
     const now = samples.at(-1).time;
     const place = (time) => Math.max(line + (time - now) * perSecond, NAMES);

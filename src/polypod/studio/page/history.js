@@ -87,13 +87,14 @@ class History {
     this.recording = recording;
   }
 
-  // Samples of the last `seconds`, oldest first.
-  recent(seconds) {
-    const last = this.live.at(-1);
-    if (!last) return [];
-    const from = this.live.findIndex((sample) => last.time - sample.time <= seconds);
+  // Samples of the `seconds` before a frame of the walk or of the tape, oldest first.
+  before({ time, tapeFrame }, seconds) {
+    const known = tapeFrame === null ? this.live : this.tape;
+    const end = known.findIndex((sample) => sample.time > time + SAME_TIME);
+    const until = end < 0 ? known : known.slice(0, end);
+    const from = until.findIndex((sample) => time - sample.time <= seconds);
     // One more, so that lines reach to the edge.
-    return this.live.slice(Math.max(from - 1, 0));
+    return from < 0 ? [] : until.slice(Math.max(from - 1, 0));
   }
 
   // What is known of the tape: [{x: s since it began, sample}].

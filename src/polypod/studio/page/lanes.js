@@ -18,7 +18,7 @@ export const LANES = [
       ...feet.map(({ colour }, k) => ({ colour, of: (sample) => sample.level + sample.particle[k] })),
       { colour: "#ffffff", of: (sample) => sample.height, strong: true },
     ],
-    about: "The height to which each foot would move the body if it were alone, and the body's, which is their mean, in white",
+    about: "The height to which each foot would move the body if it were alone, and the body's own, in white",
   },
   {
     key: "feet", title: "Foot heights", unit: "m", digits: 3, floor: 0,

@@ -35,7 +35,7 @@ export function drawPlots({ context, width, height }, lanes, view) {
 function drawAxis(context, scale, height, { from, to }) {
   const step = roundStep(to - from, Math.max((scale.width - GUTTER) / 90, 1));
   context.textAlign = "center";
-  for (let n = Math.ceil(from / step); n * step <= to; n++) {
+  for (let n = Math.max(Math.ceil(from / step), 0); n * step <= to; n++) {
     const x = Math.round(scale.place(n * step));
     context.fillStyle = palette().line;
     context.fillRect(x, 0, 0.5, height - AXIS);
@@ -51,7 +51,8 @@ function drawTitle(context, box, lane, { cursor }) {
   context.fillStyle = quiet;
   const figure = cursor && lane.now ? `${lane.now(cursor).toFixed(lane.digits)} ${lane.unit}` : "";
   const two = box.height >= FULL_LABEL;
-  context.fillText(cut(context, lane.title, GUTTER - 44), 8, box.top + (two ? 11 : box.height / 2 + 4));
+  const room = GUTTER - 14 - (two ? 0 : context.measureText(figure).width);
+  context.fillText(cut(context, lane.title, room), 8, box.top + (two ? 11 : box.height / 2 + 4));
   if (!figure) return;
   context.fillStyle = text;
   if (two) context.fillText(figure, 8, box.top + 25);

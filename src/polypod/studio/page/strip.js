@@ -84,8 +84,10 @@ class Strip {
   drawLive(feet) {
     this.drawn = null;
     this.cursor.hidden = true;
-    const fitting = this.history.recent(SECONDS).filter(({ stance }) => stance.length === feet.length);
-    const now = fitting.at(-1)?.time ?? 0;
+    const { frame } = this.store;
+    if (!frame) return;
+    const now = frame.time;
+    const fitting = this.history.before(frame, SECONDS).filter(({ stance }) => stance.length === feet.length);
     this.write(`${now.toFixed(2)} s`);
     drawPlots(fit(this.canvas), this.lanes, {
       feet, from: now - SECONDS, to: now, cursor: fitting.at(-1),

@@ -25,8 +25,9 @@ function sector(start, extent, radius) {
 }
 
 export class Wheel {
-  // `touch` is how far round a handle a finger still meets it, in the units of the drawing.
-  constructor(foot, index, touch) {
+  // `touch` is how far round a handle a finger still meets it, in the units of the drawing;
+  // `short` the foot's name where there is little room.
+  constructor(foot, index, touch, short) {
     this.foot = foot;
     this.index = index;
     this.touch = touch;
@@ -51,7 +52,7 @@ export class Wheel {
     this.mark = make("span", { class: "wheel-mark" });
     const dot = make("span", { class: "foot-dot" });
     dot.style.background = foot.colour;
-    const name = make("span", { class: "wheel-name", title: foot.name }, foot.name);
+    const name = make("span", { class: "wheel-name", title: foot.name }, short);
     this.element = make("div", { class: "wheel" }, this.picture, this.mark, make("div", { class: "wheel-words" }, dot, name, this.duty));
     this.element.style.setProperty("--foot", foot.colour);
     this.seen = {};

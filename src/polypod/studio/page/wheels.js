@@ -2,6 +2,7 @@
 
 import { disksInUse, disksOf, isDrawn, needleNow } from "/page/disks.js";
 import { make } from "/page/elements.js";
+import { shortNames } from "/page/foot_names.js";
 import { shown } from "/page/switches.js";
 import { HALF, Wheel } from "/page/wheel.js";
 import { bindWheel } from "/page/wheels_edit.js";
@@ -38,7 +39,8 @@ export class Wheels {
     this.made = made;
     const rows = [...new Set(feet.map((foot) => foot.row))].sort((a, b) => b - a);
     const size = SIZES.find(([count]) => rows.length <= count)?.[1] ?? SMALLEST;
-    this.wheels = feet.map((foot, k) => new Wheel(foot, k, (2 * HALF * FINGER) / size));
+    const short = shortNames(feet);
+    this.wheels = feet.map((foot, k) => new Wheel(foot, k, (2 * HALF * FINGER) / size, short[k]));
     this.element.style.setProperty("--wheel", `${size}px`);
     this.element.replaceChildren(...rows.map((row) => this.makeRow(row)));
     for (const wheel of this.wheels) {
