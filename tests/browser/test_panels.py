@@ -81,7 +81,7 @@ def test_default_button_goes_back_to_the_creatures_own(tab: Any) -> None:
 
 def test_tempo_follows_the_speed_until_someone_takes_hold(tab: Any) -> None:
     tab.open_panel("Body")
-    by_speed = tab.page.get_by_label("Period by speed")
+    by_speed = tab.page.get_by_role("checkbox", name="Period by speed")
     assert by_speed.is_checked()
     by_speed.uncheck()
     held = tab.until(lambda: tab.document["command"]["period"], "the period is held")
@@ -164,9 +164,9 @@ def test_crate_is_added_turned_moved_and_deleted(tab: Any) -> None:
     tab.until(
         lambda: tab.document["obstacle"][0]["yaw"] == pytest.approx(math.pi / 6), "it is turned"
     )
-    tab.page.get_by_label("forbidden to feet").check()
+    tab.page.get_by_role("checkbox", name="forbidden to feet").check()
     tab.until(lambda: tab.document["obstacle"][0].get("forbidden"), "feet keep off it")
-    tab.page.get_by_label("How it moves").select_option("velocity")
+    tab.page.get_by_role("combobox", name="How it moves").select_option("velocity")
     where = "polypod.frame.obstacles[6]"
     before = tab.ask(where)
     tab.until(lambda: tab.ask(where) < before - 0.05, "it moves toward -z")
@@ -319,11 +319,10 @@ def test_link_reproduces_the_state_and_a_broken_one_is_told(
 def test_everything_that_can_be_reached_says_what_it_is(tab: Any) -> None:
     tab.open_panel("World")
     tab.button("Add a sphere").click()
-    tab.page.get_by_label("How it moves").select_option("path")
+    tab.page.get_by_role("combobox", name="How it moves").select_option("path")
     tab.button("Add a point").click()
     tab.button("Add a kind").click()
     tab.until(lambda: tab.document["crowd"], "all kinds of rows are there")
-    for panel in ("Body", "World", "Rig", "Record"):
-        tab.open_panel(panel)
+    tab.open_panel("Rig")
     tab.until(lambda: tab.page.get_by_role("treeitem").count() > 0, "the joints are listed")
     assert tab.ask(NAMELESS) == []
