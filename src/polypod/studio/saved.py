@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from polypod.environment.scene import Scene, read_scene
 from polypod.errors import SceneError, SettingError
 from polypod.studio.document import Document, default_document, judged
 from polypod.studio.places import Ground, yaw_of
+from polypod.studio.toml_text import table
 
 # What a scene's [[creature]] takes over from a document's creature.
 NAMED = ("leg", "spine", "forward", "height", "body_height")
@@ -34,9 +34,9 @@ def scene_text(document: Document) -> str:
                 f"the terrain is of the scene {terrain['given']!r}, whose own file holds it; "
                 "choose another terrain to save this one"
             )
-        parts.append(_table("[terrain]", terrain))
-    parts += [_table("[[obstacle]]", one) for one in document["obstacle"]]
-    parts += [_table("[[creature]]", one) for one in _creatures(document)]
+        parts.append(table("[terrain]", terrain))
+    parts += [table("[[obstacle]]", one) for one in document["obstacle"]]
+    parts += [table("[[creature]]", one) for one in _creatures(document)]
     return "\n".join(parts)
 
 
@@ -53,21 +53,6 @@ def _creatures(document: Document) -> list[dict[str, Any]]:
     if document["path"]:
         first["path"] = [[0.0, 0.0], *document["path"]]
     return [first, *(dict(kind) for kind in document["crowd"])]
-
-
-def _table(head: str, values: dict[str, Any]) -> str:
-    lines = [head, *(f"{key} = {_value(value)}" for key, value in values.items())]
-    return "\n".join(lines) + "\n"
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(_value(item) for item in value) + "]"
-    return repr(float(value)) if isinstance(value, float) else str(value)
 
 
 def document_of_scene(path: Path, before: Document) -> tuple[Document, dict[str, Ground]]:
