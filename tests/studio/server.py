@@ -60,6 +60,9 @@ class FakeRunner:
     def greeting(self) -> list[dict[str, Any]]:
         return [{"is": "welcome", "fps": 60}, {"is": "clock", "time": 0.0}]
 
+    def newest(self) -> bytes | None:
+        return None
+
     def skin(self, number: int) -> bytes | None:
         return b"skin" if number == 3 else None
 

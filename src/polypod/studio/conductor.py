@@ -54,7 +54,7 @@ class Conductor:
         self._wished: frozenset[str] = frozenset()
         self._overlays_told = 0.0
         self._tell, self._event = tell, event
-        self._last = b""
+        self.newest = b""  # the frame sent last
         self._judge = Judge()
         self._check = stage.question().answer()
         self._renew_skins()
@@ -81,11 +81,6 @@ class Conductor:
     def tell_clock(self) -> None:
         """Say how time goes."""
         self.say(clock_message(self))
-
-    @property
-    def last_frame(self) -> bytes:
-        """What was shown last."""
-        return self._last
 
     # Time.
 
@@ -120,7 +115,7 @@ class Conductor:
         frame = pack_frame(
             self.number, stage.world.time, stage.herds, stage.obstacle_poses(), self.focus, motion
         )
-        self._last = frame
+        self.newest = frame
         tape = self.tape
         if tape is not None and tape.recording and dt is not None:
             if tape.full or not tape.fits(stage.world):
@@ -272,7 +267,7 @@ class Conductor:
             self._do_scrub({"frame": None})
             self.tape = Tape(self.stage.world, self.stage.herds)
             self._send_frame()
-            self.tape.add(self._last)
+            self.tape.add(self.newest)
         elif self.tape is not None:
             self.tape.recording = False
         self.say(tape_message(self))
@@ -296,6 +291,7 @@ class Conductor:
         content = self.tape.shown(index, self.number)
         self._stop_tape()
         self.scrubbed = index
+        self.newest = content
         self._tell(self._event("frame", content))
         self.say(tape_message(self))
 

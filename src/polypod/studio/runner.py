@@ -71,13 +71,6 @@ class Runner:
     def listen(self, hear: Callable[[Event], None]) -> Callable[[], None]:
         """Have `hear` called, in the runner's thread, for all that tabs are to be sent."""
         self._listeners.append(hear)
-
-        def show() -> None:
-            # While time stands no frame would come by itself.
-            if hear in self._listeners:
-                hear(Event("frame", self._conductor.last_frame))
-
-        self._push(show)
         return lambda: self._listeners.remove(hear) if hear in self._listeners else None
 
     def tell(self, event: Event) -> None:
@@ -122,6 +115,10 @@ class Runner:
     def greeting(self) -> list[dict[str, Any]]:
         """Return the messages that a new tab needs, in their order."""
         return [] if self.conductor is None else self.conductor.greeting()
+
+    def newest(self) -> bytes | None:
+        """Return the frame that was sent last: a tab that comes while time stands sees it."""
+        return None if self.conductor is None else self.conductor.newest or None
 
     def skin(self, number: int) -> bytes | None:
         """Return a skin by its number, as named arrays."""

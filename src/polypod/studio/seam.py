@@ -46,6 +46,9 @@ class Running(Protocol):
     def greeting(self) -> list[dict[str, Any]]:
         """Return what a new tab has to know."""
 
+    def newest(self) -> bytes | None:
+        """Return the frame that was sent last, if any was."""
+
     def skin(self, number: int) -> bytes | None:
         """Return a kind's skin, None where there is none of that number."""
 
