@@ -291,7 +291,7 @@ def test_what_is_recorded_is_scrubbed_by_keys_and_by_the_mouse(tab: Any) -> None
     tab.until(lambda: tab.ask("polypod.frame.tapeFrame") == 5, "frame 5 of the tape is shown")
     tab.until(lambda: slider.get_attribute("aria-valuenow") == "5", "the slider says so")
     plots = tab.page.locator(".strip-plots").bounding_box()
-    gutter = 112
+    gutter = 128
     x = plots["x"] + gutter + 0.5 * (plots["width"] - gutter)
     tab.page.mouse.click(x, plots["y"] + 20)
     frames = tab.ask("polypod.tape.frames")

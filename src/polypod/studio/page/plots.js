@@ -3,7 +3,7 @@
 import { cut, palette, roundStep } from "/page/canvas.js";
 import { spanOf } from "/page/lanes.js";
 
-export const GUTTER = 112; // px to the left, for names and figures
+export const GUTTER = 128; // px to the left, for names and figures
 const AXIS = 15; // px below, for the time
 const MARGIN = 3; // px above and below a lane
 const FULL_LABEL = 30; // px of a lane from which its axis has numbers

@@ -1,6 +1,7 @@
 // Whether the gait is plausible: its verdict always in sight, and below why, with the peak forces.
 
 import { make } from "/page/elements.js";
+import { shortNames } from "/page/foot_names.js";
 
 const SIGNS = { plausible: "✓", hard: "▲", implausible: "✕" };
 // A foot's load, in times that of standing: what the best animals do, and what none does.
@@ -44,6 +45,7 @@ export class VerdictView {
   }
 
   showFeet(feet, peaks) {
+    const short = shortNames(feet);
     this.feet.replaceChildren(...feet.map((foot, k) => {
       const fill = make("span", { class: "verdict-fill" });
       fill.style.width = `${Math.min(100 * peaks[k] / IMPOSSIBLE_LOAD, 100)}%`;
@@ -52,7 +54,7 @@ export class VerdictView {
       const value = make("span", { class: "verdict-value" }, peaks[k].toFixed(2));
       if (peaks[k] > IMPOSSIBLE_LOAD) value.classList.add("implausible");
       else if (peaks[k] > HARD_LOAD) value.classList.add("hard");
-      return make("div", { role: "listitem" }, make("span", { class: "verdict-foot", title: foot.name }, foot.name), bar, value);
+      return make("div", { role: "listitem" }, make("span", { class: "verdict-foot", title: foot.name }, short[k]), bar, value);
     }));
   }
 }
