@@ -14,7 +14,7 @@ import math
 from typing import Any
 
 from polypod.body.smoothing import follow
-from polypod.body.support import FeetPlane
+from polypod.body.support import LEVEL_WIDTH, FeetPlane, foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.rest import place_body
 
@@ -26,6 +26,9 @@ FLEXION = 0.35
 PELVIC_YAW = math.radians(18.0)
 MOST_YAW_SHARE = 2.0
 LEAST_YAW = 0.02
+# It takes a leg pendulum time to turn so many times as far: a foot that catches up in two frames
+# does not jerk its girdle round.
+FASTEST_YAW = 3.0
 # Feet that step far for once yaw a girdle by no more than so many times that.
 BEYOND = 1.15
 
@@ -63,6 +66,62 @@ def carry_girdles(
 
 
 @kernel
+def roll_girdles(
+    c: int, dt: float, seconds: float, plane: FeetPlane, state: Any, tables: Any, settings: Any,
+    scratch: Any,
+) -> None:  # fmt: skip
+    """Let girdles lie along the slope across their own feet, away from the body's (P2 5.3).
+
+    Where fore and hind feet stand on banks that fall to opposite sides the spine shares the twist
+    between its girdles, as far as it rolls. The body lies along what they have in common.
+    """
+    roll = scratch.wish
+    count = roll.shape[0]
+    share = settings.tilt_share * tables.tilt_scale * state.spine_share[c, 1, 0]
+    mean = 0.0
+    for i in range(count):
+        g = count - 1 - i
+        roll[g] = share * math.atan(own_slope(c, g, plane, state, tables))
+        if i > 0:
+            gap = tables.bend.roll_gap[g]
+            roll[g] = min(max(roll[g], roll[g + 1] - gap), roll[g + 1] + gap)
+        mean += roll[g] / count
+    for g in range(count):
+        follow(state.girdle_bend[c, g, 4], roll[g] - mean, seconds, dt)
+
+
+@kernel
+def own_slope(c: int, g: int, plane: FeetPlane, state: Any, tables: Any) -> float:
+    """Return the slope to the left across a girdle's own feet, beside the plane's under all feet.
+
+    It leans to that plane as that leans to level ground.
+    """
+    sine = math.sin(state.heading[c])
+    cosine = math.cos(state.heading[c])
+    feet = 0
+    x = 0.0
+    up = 0.0
+    xx = 0.0
+    xy = 0.0
+    for k in range(tables.girdles.of_leg.shape[0]):
+        if tables.girdles.of_leg[k] != g:
+            continue
+        place = foot_on_its_way(c, k, state)
+        off_x = place.x - state.position[c, 0]
+        off_z = place.z - state.position[c, 2]
+        forward = off_x * sine + off_z * cosine
+        left = off_x * cosine - off_z * sine
+        over = place.y - plane.height - plane.slope_forward * forward - plane.slope_left * left
+        feet += 1
+        x += left
+        up += over
+        xx += left * left
+        xy += left * over
+    lean = (LEVEL_WIDTH * tables.leg_length) ** 2
+    return (xy - x * up / feet) / (xx - x * x / feet + lean * feet)
+
+
+@kernel
 def slope_at(g: int, up: Any, tables: Any) -> float:
     """Return the slope along the spine at a girdle where girdles are so far up [G], m."""
     place = tables.girdles.place
@@ -73,7 +132,7 @@ def slope_at(g: int, up: Any, tables: Any) -> float:
 
 @kernel
 def bounce_girdles(c: int, node: Any, state: Any, tables: Any) -> None:
-    """Add to the nodes [G, 4] what their own particles move them by beside the whole trunk (P2 4).
+    """Add to the nodes [G, 5] what their own particles move them by beside the whole trunk (P2 4).
 
     Heave and nod are the body's own; of two girdles nothing is left.
     """
@@ -99,8 +158,10 @@ def bounce_girdles(c: int, node: Any, state: Any, tables: Any) -> None:
 
 
 @kernel
-def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: Any) -> None:
-    """Add to the nodes' yaw and pitch [G, 4] what their feet induce."""
+def induce(
+    c: int, dt: float, node: Any, state: Any, command: Any, tables: Any, settings: Any
+) -> None:
+    """Add to the nodes' [G, 5] yaw and pitch what their feet induce."""
     girdles = tables.girdles
     legs = tables.legs
     share = state.spine_share[c, 1, 0]
@@ -139,7 +200,10 @@ def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: A
         part = min(whole * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
         most = whole * BEYOND
         turned = min(max(part * yaw / feet, -most), most)
-        node[g, 2] += share * settings.spine_yaw * turned
+        most = FASTEST_YAW * whole * dt / tables.pendulum_time
+        was = state.girdle_sway[c, g, 1]
+        state.girdle_sway[c, g, 0] = min(max(turned, was - most), was + most)
+        node[g, 2] += share * settings.spine_yaw * state.girdle_sway[c, g, 0]
 
 
 @kernel
