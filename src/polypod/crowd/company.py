@@ -2,7 +2,7 @@
 
 Everything that a creature knows of others it reads here, so that the order in which they are
 stepped, and the number of threads, make no difference. A trunk is a row of discs in plan: one for a
-spider's, four for a centipede's.
+spider's, four for a centipede's, which bend with its spine.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from polypod.activity import ARRIVED, BLOCKED, STANDING
 from polypod.compute import kernel
 from polypod.math.quat import load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
+from polypod.spine.frames import segment_at, segment_frame
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -103,12 +104,14 @@ def note_creature(
     along = max(half[0], half[2])
     across = max(min(half[0], half[2]), 1e-9)
     discs = int(min(max(math.floor(along / across + 0.5), 1.0), float(MOST_DISCS)))
-    axis = rotate(turn, Vec3(1.0, 0.0, 0.0) if half[0] > half[2] else Vec3(0.0, 0.0, 1.0))
+    axis = Vec3(1.0, 0.0, 0.0) if half[0] > half[2] else Vec3(0.0, 0.0, 1.0)
     radius = math.hypot(across, along / discs)
     for d in range(discs):
-        out = ((2.0 * d + 1.0) / discs - 1.0) * along
-        company.disc[row, d, 0] = company.centre[row, 0] + axis.x * out
-        company.disc[row, d, 1] = company.centre[row, 1] + axis.z * out
+        rest = load_vec3(tables.body.box_centre) + axis * (((2.0 * d + 1.0) / discs - 1.0) * along)
+        origin, frame = segment_frame(c, segment_at(rest.z, tables), position, turn, state)
+        place = origin + rotate(frame, rest)
+        company.disc[row, d, 0] = place.x
+        company.disc[row, d, 1] = place.z
     company.discs[row] = discs
     company.disc_radius[row] = radius
     legs = tables.legs

@@ -52,7 +52,7 @@ def main() -> None:
     prepare_feet(*everything)
     for part in (settle_creatures, pose_creatures):
         part(0, 0, 0, 0.0, *everything)
-    begin_frame(0, 0, 0.0, herd.kernel_state)
+    begin_frame(0, 0, 0.0, herd.kernel_state, herd.kernel_tables)
     # On a creature that stands nowhere yet.
     stand_body(0, False, *walker, env, herd.scratch(0))
 

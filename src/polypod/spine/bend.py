@@ -18,6 +18,7 @@ from polypod.spine.elevation import bounce_girdles, carry_girdles, induce, roll_
 from polypod.spine.orientation import pass_back, turn_neck, wished_gaze
 from polypod.spine.struck import yield_to_push
 from polypod.spine.tail import swing_tail
+from polypod.spine.wave import send_wave
 
 # Girdles follow what they are to do within so many leg pendulum times, and the head.
 SMOOTH = 0.6
@@ -66,6 +67,7 @@ def bend_spine(
             more[g, axis] = node[g, axis]
     bounce_girdles(c, more, state, tables)
     induce(c, dt, more, state, command, tables, settings)
+    send_wave(c, more, state, tables, settings, scratch)
     yield_to_push(c, dt, more, state, tables)
     chest, inside = draw_curve(c, more, state, tables)
     # The way comes first: the gait bends the spine by what the limits leave.

@@ -38,6 +38,19 @@ def segment_frame(
 
 
 @kernel
+def segment_at(ahead: float, tables: Any) -> int:
+    """Return the segment of the trunk that lies `ahead` m of the body centre at rest; -1: none."""
+    spine = tables.spine
+    if spine.joint.shape[0] == 0:
+        return -1
+    at = 0
+    for s in range(1, spine.neck):
+        if spine.pivot_rest[s, 2] <= ahead:
+            at = s
+    return at
+
+
+@kernel
 def leg_frame(
     c: int, k: int, position: Vec3, turn: Quat, state: Any, tables: Any
 ) -> tuple[Vec3, Quat]:
