@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.reach import may_drag
 from polypod.body.smoothing import follow
 from polypod.body.support import LEVEL_WIDTH, FeetPlane, foot_on_its_way
 from polypod.compute import kernel
@@ -27,7 +28,7 @@ PELVIC_YAW = math.radians(18.0)
 MOST_YAW_SHARE = 2.0
 LEAST_YAW = 0.02
 # It takes a leg pendulum time to turn so many times as far: a foot that catches up in two frames
-# does not jerk its girdle round.
+# does not jerk its girdle round. In runs it does as its feet do: strides are longer by it.
 FASTEST_YAW = 3.0
 # Feet that step far for once yaw a girdle by no more than so many times that.
 BEYOND = 1.15
@@ -200,9 +201,11 @@ def induce(
         part = min(whole * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
         most = whole * BEYOND
         turned = min(max(part * yaw / feet, -most), most)
-        most = FASTEST_YAW * whole * dt / tables.pendulum_time
-        was = state.girdle_sway[c, g, 1]
-        state.girdle_sway[c, g, 0] = min(max(turned, was - most), was + most)
+        if not may_drag(c, state):
+            most = FASTEST_YAW * whole * dt / tables.pendulum_time
+            was = state.girdle_sway[c, g, 1]
+            turned = min(max(turned, was - most), was + most)
+        state.girdle_sway[c, g, 0] = turned
         node[g, 2] += share * settings.spine_yaw * state.girdle_sway[c, g, 0]
 
 
