@@ -27,9 +27,12 @@ FLEXION = 0.35
 PELVIC_YAW = math.radians(18.0)
 MOST_YAW_SHARE = 2.0
 LEAST_YAW = 0.02
-# It takes a leg pendulum time to turn so many times as far: a foot that catches up in two frames
-# does not jerk its girdle round. In runs it does as its feet do: strides are longer by it.
-FASTEST_YAW = 3.0
+# No girdle turns more than so many times as fast as one that takes all of a steady gait's swing to
+# turn from side to side: a foot that catches up in two frames does not jerk it round. Feet are up
+# to twice as fast. In runs it does as they do: strides are longer by it.
+FASTEST_YAW = 1.5
+# Who stands could step so many times in a leg pendulum time.
+SLOWEST = 0.25
 # Feet that step far for once yaw a girdle by no more than so many times that.
 BEYOND = 1.15
 
@@ -174,6 +177,7 @@ def induce(
         yaw = 0.0
         pitch = 0.0
         size = 0.0
+        swing = 0.0
         feet = 0
         for k in range(legs.length.shape[0]):
             if girdles.of_leg[k] != g:
@@ -196,17 +200,25 @@ def induce(
                 at_ahead * stand_ahead + at_left * stand.x,
             )
             size += step_yaw(c, k, stand.x, state, command)
+            swing += state.swing_extent[c, k]
         node[g, 3] += share * settings.spine_flexion * FLEXION * pitch / feet
         whole = tables.bend.apart * PELVIC_YAW
         part = min(whole * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
         most = whole * BEYOND
         turned = min(max(part * yaw / feet, -most), most)
-        if not may_drag(c, state):
-            most = FASTEST_YAW * whole * dt / tables.pendulum_time
+        if swing > 0.0 and not may_drag(c, state):
+            most = FASTEST_YAW * 2.0 * whole * dt * feet / swing * steady_rate(c, state, tables)
             was = state.girdle_sway[c, g, 1]
             turned = min(max(turned, was - most), was + most)
         state.girdle_sway[c, g, 0] = turned
-        node[g, 2] += share * settings.spine_yaw * state.girdle_sway[c, g, 0]
+        node[g, 2] += share * settings.spine_yaw * turned
+
+
+@kernel
+def steady_rate(c: int, state: Any, tables: Any) -> float:
+    """Return the cycles a second of a creature's gait, were it not hurried by legs at their end."""
+    rate = state.cycle_rate[c] / (1.0 + state.hurry[c])
+    return float(max(rate, SLOWEST / tables.pendulum_time))
 
 
 @kernel
