@@ -165,10 +165,11 @@ class HerdState(NamedTuple):
     spine_base: FloatArray  # [C, 3] m, body frame: shift of where the spine begins
     spine_wish: FloatArray  # [C, S + T, 3] both as they are to be at the end of the step
     spine_base_wish: FloatArray  # [C, 3]
-    girdle_bend: FloatArray  # [C, G, 4, 3] a girdle against the body's axis, without what its gait
-    # adds: to the left and up, m, yaw (as a heading) and pitch (front up), rad; smoothed value,
-    # rate, low pass
-    girdle_was: FloatArray  # [C, G, 4, 3] the same as the step began
+    girdle_bend: FloatArray  # [C, G, 5, 3] a girdle against the body's axis, without what its gait
+    # adds: to the left and up, m, yaw (as a heading), pitch (front up) and roll (left side up),
+    # rad; smoothed value, rate, low pass
+    girdle_was: FloatArray  # [C, G, 5, 3] the same as the step began
+    girdle_sway: FloatArray  # [C, G, 2] rad: yaw that its feet add, and the same as the step began
     spine_share: FloatArray  # [C, 2, 3] how much the spine takes on of the track, which is nothing
     # of who goes sideways, and of what the gait bends it by; smoothed
     spine_struck: FloatArray  # [C, 2] rad and rad/s: the bend that pushes gave it, of the front

@@ -54,7 +54,7 @@ def main() -> None:
         part(0, 0, 0, 0.0, *everything)
     begin_frame(0, 0, 0.0, herd.kernel_state, herd.kernel_tables)
     # On a creature that stands nowhere yet.
-    stand_body(0, *walker, env, herd.scratch(0))
+    stand_body(0, False, *walker, env, herd.scratch(0))
 
 
 def prepare_maps(env: Any) -> None:

@@ -14,7 +14,7 @@ from polypod.math.vec3 import Vec3, store_vec3
 from polypod.spine.advancing import MOMENTS, left_along, note_track, note_way, yaw_along
 from polypod.spine.chain import place_segments
 from polypod.spine.curve import draw_curve, room_for
-from polypod.spine.elevation import bounce_girdles, carry_girdles, induce
+from polypod.spine.elevation import bounce_girdles, carry_girdles, induce, roll_girdles
 from polypod.spine.orientation import pass_back, turn_neck, wished_gaze
 from polypod.spine.struck import yield_to_push
 from polypod.spine.tail import swing_tail
@@ -58,21 +58,22 @@ def bend_spine(
     if state.cycle_rate[c] > 0.0:
         seconds = min(seconds, 1.0 / state.cycle_rate[c])
     carry_girdles(c, dt, settings.height_smoothing * seconds, plane, state, tables)
+    roll_girdles(c, dt, settings.tilt_smoothing * seconds, plane, state, tables, settings, scratch)
     node = scratch.node
     more = scratch.more
     for g in range(node.shape[0]):
-        for axis in range(4):
+        for axis in range(node.shape[1]):
             node[g, axis] = state.girdle_bend[c, g, axis, 0]
             more[g, axis] = node[g, axis]
     bounce_girdles(c, more, state, tables)
-    induce(c, more, state, command, tables, settings)
+    induce(c, dt, more, state, command, tables, settings)
     send_wave(c, more, state, tables, settings, scratch)
     yield_to_push(c, dt, more, state, tables)
     chest, inside = draw_curve(c, more, state, tables)
     # The way comes first: the gait bends the spine by what the limits leave.
     share = 1.0 if inside else room_for(node, more, tables)
     for g in range(node.shape[0]):
-        for axis in range(4):
+        for axis in range(node.shape[1]):
             node[g, axis] += share * (more[g, axis] - node[g, axis])
     if not inside:
         chest, _ = draw_curve(c, node, state, tables)

@@ -62,7 +62,7 @@ def girdle_rate(g: int, c: int, state: Any, tables: Any) -> float:
 
 @kernel
 def send_wave(c: int, node: Any, state: Any, tables: Any, settings: Any, scratch: Any) -> None:
-    """Add to the nodes' places [G, 4] what lets the wave of a fast sprawler's trunk travel."""
+    """Add to the nodes' places [G, 5] what lets the wave of a fast sprawler's trunk travel."""
     girdles = tables.girdles
     legs = tables.legs
     swing = 0.0
