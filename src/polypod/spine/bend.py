@@ -50,7 +50,7 @@ def bend_spine(
     along = max(0.0, math.cos(command.travel[c]))
     follow(state.spine_share[c, 0], settings.spine * along, ADOPT * pendulum, dt)
     follow(state.spine_share[c, 1], settings.spine, ADOPT * pendulum, dt)
-    note_track(c, dt, pose, state, command, tables)
+    note_track(c, dt, pose, state, command, tables, settings)
     note_way(c, pose, state, command, tables, settings)
     guide_girdles(c, dt, pose, state, tables, scratch)
     seconds = 4.0 * pendulum
@@ -79,13 +79,15 @@ def bend_spine(
 
 
 @kernel
-def swing_seconds(place: float, speed: float, tables: Any) -> float:
+def swing_seconds(c: int, place: float, speed: float, state: Any, tables: Any) -> float:
     """Return the time in which a girdle follows, s; `place` is how far it is ahead, m.
 
     One far ahead swings aside no faster than it walks: its feet are to follow it. Who turns on the
-    spot steps with all of them.
+    spot steps with all of them, and who is led by its head never swings aside.
     """
     pendulum = tables.pendulum_time
+    if state.led[c]:
+        return float(SMOOTH * pendulum)
     far = max(place - AT_ONCE * tables.leg_length, 0.0)
     slow = STANDING * tables.leg_length / pendulum
     return float(max(SMOOTH * pendulum, far * speed / (speed * speed + slow * slow)))
@@ -99,12 +101,13 @@ def guide_girdles(c: int, dt: float, pose: PlanPose, state: Any, tables: Any, sc
     wish = scratch.wish
     for g in range(place.shape[0]):
         # Where the track is by the time that the filter has caught up.
-        ahead = LAG * swing_seconds(place[g], pose.speed, tables) * pose.speed * min(1.0, lead)
+        seconds = swing_seconds(c, place[g], pose.speed, state, tables)
+        ahead = LAG * seconds * pose.speed * min(1.0, lead)
         here = yaw_along(c, ahead, state, tables)
         wish[g] = lead * (yaw_along(c, ahead + place[g], state, tables) - here)
     pass_back(c, wish, state, tables)
     for g in range(place.shape[0]):
-        seconds = swing_seconds(place[g], pose.speed, tables)
+        seconds = swing_seconds(c, place[g], pose.speed, state, tables)
         ahead = LAG * seconds * pose.speed * min(1.0, lead)
         left = left_along(c, place[g], lead, ahead, state, tables)
         # No farther than a bend within the limits leads.
