@@ -29,6 +29,8 @@ OUT_OF_TURN_HURRY = 0.02
 IN_PLACE = 0.05
 # Speeds below this, in leg lengths a pendulum time, are standing.
 STILL = 1e-3
+# One foot of so many may be up beside those that the gait has up at most.
+SPARE = 10
 # A foot that finds no place looks farther and farther, up to so many times.
 WIDEST_SEARCH = 2.6
 
@@ -95,9 +97,14 @@ def way_off(
 
 @kernel
 def feet_needed(c: int, state: Any) -> int:
-    """Return how many feet must stay down: the gait's own minimum, less those that reach."""
-    needed = state.least_down[c]
-    for k in range(state.swinging.shape[1]):
+    """Return how many feet must stay down: the gait's own minimum, less those that reach.
+
+    Of many feet a few more may be up: where the gait always has as many up as it may, one that
+    missed its turn would never get another.
+    """
+    count = state.swinging.shape[1]
+    needed = state.least_down[c] - count // SPARE
+    for k in range(count):
         if state.reaching[c, k] and needed > 1:
             needed -= 1
     return int(needed)

@@ -22,7 +22,7 @@ APART = 1.2
 # The inner feet need so many times as much room in a turn as they stand beside the middle.
 ROOM_INSIDE = 2.6
 # And so many more where each has the next one close by.
-CROWDED_INSIDE = 6.0
+CROWDED_INSIDE = 3.0
 
 
 class BendTable(NamedTuple):
