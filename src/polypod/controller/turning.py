@@ -10,8 +10,8 @@ from polypod.compute import kernel
 # Who goes faster than this, leg lengths a pendulum time, walks on in a turn if its spine bends.
 WALKING = 0.03
 # It takes so many times as long to turn as it takes to walk to where its foremost girdle is. A body
-# that reaches ahead half as far as this, leg lengths, or farther, takes less: its front swings in a
-# time of its own (`spine.bend`), and both together took a centipede too long.
+# that reaches ahead half as far as this, leg lengths, or farther, takes less: it is led by its head
+# (`spine.leading`), or its front swings in a time of its own (`spine.bend`).
 FOLLOWING = 2.8
 SLOW = 0.1  # leg lengths a pendulum time: who is slower turns as who stands
 LONGEST_FRONT = 2.0
