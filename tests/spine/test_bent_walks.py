@@ -221,7 +221,7 @@ def test_a_long_body_goes_where_its_head_went(side: float, share: float, seconds
     bent, world = go(morphology, seconds, turn, speed=speed)
     rigid, _ = go(morphology, seconds, turn, speed=speed, settings=Settings(spine=0.0))
     assert off_the_track(bent) < 0.06
-    assert off_the_track(rigid) > 0.3
+    assert off_the_track(rigid) > 0.2
     # It comes round, its legs do not hold it up on the way, and none is dragged.
     (herd,) = world.herds
     assert herd.state.heading[0] * side == pytest.approx(0.5 * math.pi, abs=math.radians(3.0))

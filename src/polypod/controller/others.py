@@ -16,6 +16,7 @@ from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import foot_along, swing_time_left
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
+from polypod.gait.pattern import SAME_MOMENT
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat, load_quat, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, mix, store_vec3
@@ -82,7 +83,8 @@ def is_on_its_way(c: int, k: int, seconds: float, state: Any) -> bool:
     if rate <= 0.0 or swing_progress(state.needle[c], state.swing_start[c, k], extent) >= 0.0:
         return False
     gone = seconds * rate - wrap_phase(state.swing_start[c, k] - state.needle[c])
-    return bool(0.0 < gone < extent)
+    # Who changes places with it just then is not: rounding shall not decide.
+    return bool(SAME_MOMENT < gone < extent - SAME_MOMENT)
 
 
 @kernel

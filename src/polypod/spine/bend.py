@@ -11,10 +11,11 @@ from polypod.compute import kernel
 from polypod.controller.steering import PlanPose
 from polypod.math.quat import Quat
 from polypod.math.vec3 import Vec3, store_vec3
-from polypod.spine.advancing import MOMENTS, left_along, note_track, note_way, yaw_along
+from polypod.spine.advancing import MOMENTS, RELAX, left_along, note_track, note_way, yaw_along
 from polypod.spine.chain import place_segments
 from polypod.spine.curve import draw_curve, room_for
 from polypod.spine.elevation import bounce_girdles, carry_girdles, induce
+from polypod.spine.leading import is_walking
 from polypod.spine.orientation import pass_back, turn_neck, wished_gaze
 from polypod.spine.struck import yield_to_push
 from polypod.spine.tail import swing_tail
@@ -48,7 +49,7 @@ def bend_spine(
         return
     pendulum = tables.pendulum_time
     along = max(0.0, math.cos(command.travel[c]))
-    follow(state.spine_share[c, 0], settings.spine * along, ADOPT * pendulum, dt)
+    follow_way(c, dt, pose, settings.spine * along, state, command, tables)
     follow(state.spine_share[c, 1], settings.spine, ADOPT * pendulum, dt)
     note_track(c, dt, pose, state, command, tables, settings)
     note_way(c, pose, state, command, tables, settings)
@@ -76,6 +77,23 @@ def bend_spine(
         chest, _ = draw_curve(c, node, state, tables)
     move_ends(c, dt, chest, node, state, tables, settings)
     place_segments(c, 1.0, state, tables)
+
+
+@kernel
+def follow_way(
+    c: int, dt: float, pose: PlanPose, share: float, state: Any, command: Any, tables: Any
+) -> None:
+    """Let a spine take on more or less of the track, up to a share of it.
+
+    A long body that stands takes on nothing: legs that step on the spot could follow neither a
+    front that swings where it is to go nor a back that stays behind. It straightens, and turns as
+    it is, as slowly as it would relax.
+    """
+    seconds = ADOPT * tables.pendulum_time
+    if tables.bend.kept > 0.0 and not is_walking(c, pose.speed, command, tables):
+        share = 0.0
+        seconds = RELAX * tables.bend.kept / tables.leg_length * tables.pendulum_time
+    follow(state.spine_share[c, 0], share, seconds, dt)
 
 
 @kernel

@@ -139,7 +139,9 @@ def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: A
         part = min(whole * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
         most = whole * BEYOND
         turned = min(max(part * yaw / feet, -most), most)
-        node[g, 2] += share * settings.spine_yaw * turned
+        # Feet of a long body that turns on the spot would turn each girdle another way.
+        yawing = min(share, state.spine_share[c, 0, 0]) if tables.bend.kept > 0.0 else share
+        node[g, 2] += yawing * settings.spine_yaw * turned
 
 
 @kernel

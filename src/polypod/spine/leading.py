@@ -25,6 +25,13 @@ LONG = 2.0
 
 
 @kernel
+def is_walking(c: int, speed: float, command: Any, tables: Any) -> bool:
+    """Return whether a creature walks at a speed, m/s, or is asked to."""
+    goes = max(speed, command.speed[c])
+    return bool(goes * tables.pendulum_time > WALKING * tables.leg_length)
+
+
+@kernel
 def follows_head(
     c: int, speed: float, state: Any, command: Any, tables: Any, settings: Any
 ) -> bool:
@@ -39,8 +46,7 @@ def follows_head(
         return False
     if state.halts[c] > 0 or state.caught[c] > 0 or abs(state.shy[c]) > PASSING:
         return False
-    goes = max(speed, command.speed[c])
-    return bool(goes * tables.pendulum_time > WALKING * tables.leg_length)
+    return is_walking(c, speed, command, tables)
 
 
 @kernel
