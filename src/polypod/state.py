@@ -61,7 +61,7 @@ class HerdState(NamedTuple):
     travelled: FloatArray  # [C] m, along the way asked for
     route: RouteState  # the way to that waypoint
     deflection: FloatArray  # [C, 6] polypod.body.push.Deflection: how far it is off its path
-    steered: FloatArray  # [C, 15] PlanPose: where steering wants the body at the end of the step
+    steered: FloatArray  # [C, 16] PlanPose: where steering wants the body at the end of the step
     needle: FloatArray  # [C] phase of the gait in [0, 1)
     turn: FloatArray  # [C] cycles by which the needle turned in this step
     cycle_rate: FloatArray  # [C] cycles a second
@@ -179,6 +179,10 @@ class HerdState(NamedTuple):
     track_gone: FloatArray  # [C] m, how far behind the first of them is
     track_from: FloatArray  # [C] rad: the heading against which they are
     way_ahead: FloatArray  # [C, MOMENTS, 2] arc, m, and yaw of the way ahead
+    led: BoolArray  # [C] its head leads it: the way ahead is as the head took it
+    kept_way: FloatArray  # [C, KEPT + 2] rad: yaws of that way against the present heading
+    kept_gone: FloatArray  # [C] m, how far behind the middle the first of them is
+    front_rate: FloatArray  # [C] rad/s at which its far end turns
     joint_position: FloatArray  # [C, J, 3]
     joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
     foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it

@@ -112,7 +112,7 @@ def prepare_feet(
     from polypod.crowd.legs import is_taken
     from polypod.math.vec3 import Vec3
 
-    pose = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_DEFLECTION)
+    pose = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_DEFLECTION, 0.0)
     prepare(way_blocked, 0, 0, state, tables, env)
     prepare(is_taken, 0, 0, state, tables, scratch)
     place = Vec3(0.0, 0.0, 0.0)

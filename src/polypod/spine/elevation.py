@@ -211,7 +211,9 @@ def induce(
             was = state.girdle_sway[c, g, 1]
             turned = min(max(turned, was - most), was + most)
         state.girdle_sway[c, g, 0] = turned
-        node[g, 2] += share * settings.spine_yaw * turned
+        # Feet of a long body that turns on the spot would turn each girdle another way.
+        yawing = min(share, state.spine_share[c, 0, 0]) if tables.bend.kept > 0.0 else share
+        node[g, 2] += yawing * settings.spine_yaw * turned
 
 
 @kernel

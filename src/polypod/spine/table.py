@@ -10,6 +10,7 @@ from polypod.morphology.girdles import Girdles
 from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import FloatArray, IntArray, LegTable
 from polypod.spine.advancing import TRACK
+from polypod.spine.leading import BEYOND, LONG
 
 # Of what joints allow the track takes so much: the rest is for what a gait bends a spine by.
 FOR_TURNS = 0.8
@@ -22,8 +23,9 @@ BEHIND = 1.05
 APART = 1.2
 # The inner feet need so many times as much room in a turn as they stand beside the middle.
 ROOM_INSIDE = 2.6
-# And so many more where each has the next one close by.
-CROWDED_INSIDE = 6.0
+# And so many times more where each has the next one close by: a centipede of 1.3 m walks on arcs of
+# 0.63 m at its full pace, and on tighter ones its legs hold it up (0.5 m: 0.73 of it).
+CROWDED_INSIDE = 3.0
 
 
 class BendTable(NamedTuple):
@@ -41,6 +43,7 @@ class BendTable(NamedTuple):
     begin: FloatArray  # [S] where it begins and ends at rest, shares of the way from that girdle
     end: FloatArray  # [S] to the next
     track_step: float  # m, from one place of the track behind to the next
+    kept: float  # m, how far ahead its way is kept, whose head leads it; 0: its middle does
 
 
 def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> BendTable:
@@ -68,6 +71,7 @@ def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> Bend
             begin[s], end[s] = max(end[s] - 0.5, 0.0), min(begin[s] + 0.5, 1.0)
     back = min(float(girdles.place[0]), float(z[0]), float(spine.tail_pivot_rest[:, 2].min()))
     reach = max(BEHIND * -back, 1e-6)
+    front = float(girdles.place[-1])
     return BendTable(
         most_yaw=most_yaw(spine, girdles),
         yaw_gap=gaps(spine, girdles, 0, FOR_TURNS),
@@ -81,6 +85,7 @@ def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> Bend
         begin=begin,
         end=end,
         track_step=reach / (TRACK - 2),
+        kept=BEYOND * front if segments and front >= LONG * leg_length else 0.0,
     )
 
 
