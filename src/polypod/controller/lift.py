@@ -9,12 +9,14 @@ from polypod.body.push import caught_at, is_pushed, load_deflection
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.controller.feet import preferred_footprint
+from polypod.controller.parting import MANY
 from polypod.controller.rest import rest_offset
 from polypod.controller.roll import plan_roll
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import begin_swing, swing_pace, wished_progress
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
+from polypod.math.intervals import wrap_phase
 from polypod.math.vec3 import Vec3, store_vec3
 
 # A leg that pulls at the body by so many leg lengths a frame may step out of turn, if it has stood
@@ -29,8 +31,6 @@ OUT_OF_TURN_HURRY = 0.02
 IN_PLACE = 0.05
 # Speeds below this, in leg lengths a pendulum time, are standing.
 STILL = 1e-3
-# More feet than these are many: half of them carry a body at any moment.
-MANY = 10
 # A foot that finds no place looks farther and farther, up to so many times.
 WIDEST_SEARCH = 2.6
 
@@ -155,7 +155,10 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
         hurries = state.hurry[c] >= OUT_OF_TURN_HURRY
         if pull < OUT_OF_TURN_PULL * tables.leg_length or not hurries:
             waits = state.waiting[c, k]
-            if hurries and state.stood[c, k] > 1.0 - 0.5 * state.swing_extent[c, k]:
+            due = wrap_phase(state.swing_start[c, k] - state.needle[c])
+            missed = state.stood[c, k] > 1.0 - 0.5 * state.swing_extent[c, k]
+            # One that is due soon waits, or it would step early ever after.
+            if hurries and missed and due > 0.5 * state.swing_extent[c, k]:
                 waits = max(waits, state.stood[c, k] / state.cycle_rate[c])
             pull = waits * WAITING_PULL * tables.leg_length
         if pull > most:

@@ -10,7 +10,7 @@ from polypod.body.reach import effector_world, may_drag
 from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
-from polypod.controller.parting import passes
+from polypod.controller.parting import MANY, passes
 from polypod.controller.rest import body_height_at, rest_ahead
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import foot_along, swing_time_left
@@ -97,12 +97,13 @@ def gather_other_legs(
     Of each leg whose foot could be met, the last section before the sole counts: where it will be
     `seconds` from now, when foot `k` lands under the body at `landing`, or where it lands then. So
     a hind foot may land in the print that the fore foot of its side has just left; but not where
-    the ground is such that the fore foot may find no place to go to. One that is on its way by then
-    is nowhere that a whole path could keep clear of: only where it comes near in time is judged, as
-    of all of these legs, by `look_ahead`.
+    the ground is such that the fore foot may find no place to go to. Of many legs one that is on
+    its way by then is nowhere that a whole path could keep clear of: only where it comes near in
+    time is judged, as of all of these legs, by `look_ahead`.
     """
     count = 0
     near = 0
+    crowded = state.swinging.shape[1] > MANY
     legs = tables.legs
     for other in range(state.swinging.shape[1]):
         gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
@@ -115,7 +116,7 @@ def gather_other_legs(
         near += 1
         sole = load_vec3(state.foot[c, other])
         if not state.swinging[c, other] and state.caution[c] < CAREFUL:
-            if is_on_its_way(c, other, seconds, state):
+            if crowded and is_on_its_way(c, other, seconds, state):
                 continue
             sole = foot_later(c, other, seconds, landing, command, state, tables, settings, env)
         elif state.swinging[c, other] and not hangs(c, other, state):

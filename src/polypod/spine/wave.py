@@ -35,12 +35,13 @@ def quadrature(needle: float, start: float, extent: float) -> float:
     """Return the rate at which a foot moves ahead of its girdle, as a share of the stride's most.
 
     1 in the middle of its swing and -1 in the middle of its stance, of a disk whose swing begins
-    at `start` and goes on for `extent` of the cycle.
+    at `start` and goes on for `extent` of the cycle. Squared, so that hardly anything is left near
+    touchdown and lift-off, where legs are at their longest.
     """
     since = (needle - start) % 1.0
     if since < extent:
-        return math.sin(math.pi * since / extent)
-    return -math.sin(math.pi * (since - extent) / (1.0 - extent))
+        return math.sin(math.pi * since / extent) ** 2
+    return -(math.sin(math.pi * (since - extent) / (1.0 - extent)) ** 2)
 
 
 @kernel
