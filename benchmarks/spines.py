@@ -40,7 +40,8 @@ TURNERS = (
     ("wolf", 1.0, 5.0),
     ("lizard", 1.0, 5.0),
     ("centaur", 1.0, 5.0),
-    ("centipede", 0.5, 12.0),
+    ("centipede", 1.0, 9.0),
+    ("centipede", 0.5, 14.0),
 )
 GAITS = (("trot", 1.6), ("canter", 2.5), ("transverse-gallop", 3.0), ("rotary-gallop", 5.0))
 SHOWN = (1.2, 1.6, 2.0, 2.4, 2.8, 3.3)  # s, of the picture
@@ -149,7 +150,7 @@ def print_figures() -> None:
     for gait, speed in GAITS:
         walked, _ = go(load_rig("wolf"), 6.0, speed=speed, gait=gait)
         print(f"wolf, {gait}: flexion {backbone_figures(walked)['spine_flexion_deg']:.1f} degrees")
-    for name, _, _ in TURNERS:
+    for name in dict.fromkeys(name for name, _, _ in TURNERS):
         morphology = load_rig(name)
         times = [min(cost(morphology, s) for _ in range(3)) for s in (Settings(), RIGID)]
         print(f"{name}: a frame takes {times[0] / times[1]:.2f} times as long as without a spine")

@@ -12,6 +12,7 @@ from polypod.morphology.types import BoolArray, IntArray
 from polypod.paths.curve import path_store
 from polypod.routes.state import make_route_state
 from polypod.spine.advancing import MOMENTS, TRACK
+from polypod.spine.leading import KEPT
 from polypod.state import HerdCommand, HerdState
 
 
@@ -79,6 +80,9 @@ def make_state(
             "shy",
             "track_gone",
             "track_from",
+            "led",
+            "kept_gone",
+            "front_rate",
         ),
         (c,),
     )
@@ -146,7 +150,7 @@ def make_state(
         "spacing": (c, k, 2),
         "deflection": (c, 6),
         "gait_duty": (c, 3),
-        "steered": (c, 15),
+        "steered": (c, 16),
         "slope": (c, 2),
         "asked": (c, 4),
         "judged": (c, 3),
@@ -164,13 +168,15 @@ def make_state(
         "spine_base": (c, 3),
         "spine_wish": (c, segments + tail, 3),
         "spine_base_wish": (c, 3),
-        "girdle_bend": (c, girdles, 4, 3),
-        "girdle_was": (c, girdles, 4, 3),
+        "girdle_bend": (c, girdles, 5, 3),
+        "girdle_was": (c, girdles, 5, 3),
+        "girdle_sway": (c, girdles, 2),
         "spine_share": (c, 2, 3),
         "spine_struck": (c, 2),
         "gaze": (c, 3),
         "tail_sway": (c, tail, 2, 3),
         "track": (c, TRACK),
+        "kept_way": (c, KEPT + 2),
         "way_ahead": (c, MOMENTS, 2),
         "joint_position": (c, j, 3),
         "joint_rotation": (c, j, 4),

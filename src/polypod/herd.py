@@ -58,8 +58,8 @@ class Scratch(NamedTuple):
     leg_point: FloatArray  # [M + 1, 3]
     route: RouteScratch
     company: Company  # all creatures of the world, as all threads read them
-    node: FloatArray  # [G, 4] where the spine's girdles are to be, see polypod.spine.curve
-    more: FloatArray  # [G, 4] the same with what the gait adds
+    node: FloatArray  # [G, 5] where the spine's girdles are to be, see polypod.spine.curve
+    more: FloatArray  # [G, 5] the same with what the gait adds
     wish: FloatArray  # [G] rad
     neighbour: IntArray  # [HEEDED] rows of the company
     neighbour_gap: FloatArray  # [HEEDED] m
@@ -256,8 +256,8 @@ class Herd:
                 leg_point=np.zeros((most + 1, 3)),
                 route=make_route_scratch(),
                 company=self._company,
-                node=np.zeros((len(self.tables.girdles.place), 4)),
-                more=np.zeros((len(self.tables.girdles.place), 4)),
+                node=np.zeros((len(self.tables.girdles.place), 5)),
+                more=np.zeros((len(self.tables.girdles.place), 5)),
                 wish=np.zeros(len(self.tables.girdles.place)),
                 neighbour=np.zeros(HEEDED, np.int64),
                 neighbour_gap=np.zeros(HEEDED),

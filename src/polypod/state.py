@@ -61,7 +61,7 @@ class HerdState(NamedTuple):
     travelled: FloatArray  # [C] m, along the way asked for
     route: RouteState  # the way to that waypoint
     deflection: FloatArray  # [C, 6] polypod.body.push.Deflection: how far it is off its path
-    steered: FloatArray  # [C, 15] PlanPose: where steering wants the body at the end of the step
+    steered: FloatArray  # [C, 16] PlanPose: where steering wants the body at the end of the step
     needle: FloatArray  # [C] phase of the gait in [0, 1)
     turn: FloatArray  # [C] cycles by which the needle turned in this step
     cycle_rate: FloatArray  # [C] cycles a second
@@ -165,10 +165,11 @@ class HerdState(NamedTuple):
     spine_base: FloatArray  # [C, 3] m, body frame: shift of where the spine begins
     spine_wish: FloatArray  # [C, S + T, 3] both as they are to be at the end of the step
     spine_base_wish: FloatArray  # [C, 3]
-    girdle_bend: FloatArray  # [C, G, 4, 3] a girdle against the body's axis, without what its gait
-    # adds: to the left and up, m, yaw (as a heading) and pitch (front up), rad; smoothed value,
-    # rate, low pass
-    girdle_was: FloatArray  # [C, G, 4, 3] the same as the step began
+    girdle_bend: FloatArray  # [C, G, 5, 3] a girdle against the body's axis, without what its gait
+    # adds: to the left and up, m, yaw (as a heading), pitch (front up) and roll (left side up),
+    # rad; smoothed value, rate, low pass
+    girdle_was: FloatArray  # [C, G, 5, 3] the same as the step began
+    girdle_sway: FloatArray  # [C, G, 2] rad: yaw that its feet add, and the same as the step began
     spine_share: FloatArray  # [C, 2, 3] how much the spine takes on of the track, which is nothing
     # of who goes sideways, and of what the gait bends it by; smoothed
     spine_struck: FloatArray  # [C, 2] rad and rad/s: the bend that pushes gave it, of the front
@@ -178,6 +179,10 @@ class HerdState(NamedTuple):
     track_gone: FloatArray  # [C] m, how far behind the first of them is
     track_from: FloatArray  # [C] rad: the heading against which they are
     way_ahead: FloatArray  # [C, MOMENTS, 2] arc, m, and yaw of the way ahead
+    led: BoolArray  # [C] its head leads it: the way ahead is as the head took it
+    kept_way: FloatArray  # [C, KEPT + 2] rad: yaws of that way against the present heading
+    kept_gone: FloatArray  # [C] m, how far behind the middle the first of them is
+    front_rate: FloatArray  # [C] rad/s at which its far end turns
     joint_position: FloatArray  # [C, J, 3]
     joint_rotation: FloatArray  # [C, J, 4] away from the rest pose
     foot_reached: FloatArray  # [C, K, 3] the sole where the rig has it

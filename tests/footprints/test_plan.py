@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from stepping import LEG, SCRATCH, SETTINGS, STRIDE, ask, audit, crates, plan, sample, walk
 
-from polypod.environment import Environment, Obstacle, Terrain
+from polypod.environment import Environment, Obstacle, Terrain, scatter
 from polypod.environment.table import is_forbidden, is_wet, surface
 from polypod.environment.terrain import generated
 from polypod.footprints.scratch import TALLY_DIRECT, TALLY_PATHS
@@ -266,3 +266,39 @@ def test_less_detail_means_less_work():
         assert found
         assert audit(env, path, 200, 0.0)[0] <= 0.002 * LEG
     assert fast < 0.6 * full
+
+
+def fits(env, x, z, half):
+    """Return whether a square about a place lies on flat ground: looked at from everywhere."""
+    places = np.linspace(-half, half, 9)
+    return all(surface(env, x + a, z + b)[0] == 0.0 for a in places for b in places)
+
+
+def test_a_wide_foot_among_low_crates_lands_between_them():
+    """The maps call every cell there even enough; once edges took all the places that were tried.
+
+    Crates up to a third of the hip's height beside which a foot as wide as a lizard's has room.
+    """
+    half, radius, asked = 0.2 * LEG, 0.6 * LEG, 0
+    net = np.linspace(-radius, radius, 17)
+    start, wanted = ORIGIN, Vec3(0.0, 0.0, STRIDE)
+    for seed in range(150):
+        size = [[0.08, 0.04, 0.08], [0.2, 0.08, 0.2]]
+        boxes = scatter(Terrain.flat(), 22, [-0.6, -0.35, 0.6, 0.85], size, seed)
+        env = Environment(obstacles=boxes).kernel_table
+        if not fits(env, start.x, start.z, half):
+            continue
+        request = ask(env, start, wanted, foot_half_x=half, foot_half_z=half, search_radius=radius)
+        places = (Vec3(a, 0.0, wanted.z + b) for a in net for b in net)
+        if any(
+            math.dist(place, wanted) < 0.95 * radius
+            and math.dist(place, request.hip_touchdown) < request.reach_comfort_max
+            and fits(env, place.x, place.z, 1.3 * half)
+            for place in places
+        ):
+            found, _, path = plan(env, request)
+            assert found, seed
+            end = path.point[path.count[0] - 1]
+            assert fits(env, end[0], end[2], half)
+            asked += 1
+    assert asked > 8

@@ -13,7 +13,7 @@ from polypod.controller.steering import CYCLE, PREDICTION_STEPS, PlanPose, predi
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 
-REST = PlanPose(*[0.0] * 9, NO_DEFLECTION)._replace(pace=1.0)
+REST = PlanPose(*[0.0] * 9, NO_DEFLECTION, 0.0)._replace(pace=1.0)
 
 
 @pytest.fixture(scope="module")

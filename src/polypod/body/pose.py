@@ -121,7 +121,7 @@ def highest_soon(
         z = pose.z + (there.z - pose.z) * share
         later = PlanPose(
             x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner, pose.detour,
-            pose.pace, pose.aside,
+            pose.pace, pose.aside, pose.gone,
         )  # fmt: skip
         rise = rise_along(pose, x, z, plane) + heave_ahead(c, 0.5 * share, state)
         for k in range(state.swinging.shape[1]):

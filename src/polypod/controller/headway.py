@@ -111,7 +111,8 @@ def note_headway(c: int, dt: float, state: Any, command: Any, tables: Any, env: 
     gone = math.hypot(x - state.judged[c, 0], z - state.judged[c, 1])
     if command.waypoint_count[c] == 0 and env.forbidden_count == 0:
         # Straight ahead: to go back for a foot is none.
-        course = command.heading[c] + command.travel[c]
+        # Who is led by its head is still on the way that it took, when that has turned.
+        course = state.heading[c] if state.led[c] else command.heading[c] + command.travel[c]
         gone = math.sin(course) * (x - state.judged[c, 0])
         gone += math.cos(course) * (z - state.judged[c, 1])
     least = LEAST * command.speed[c] * state.judged[c, 2]

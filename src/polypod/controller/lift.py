@@ -9,12 +9,14 @@ from polypod.body.push import caught_at, is_pushed, load_deflection
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.controller.feet import preferred_footprint
+from polypod.controller.parting import MANY
 from polypod.controller.rest import rest_offset
 from polypod.controller.roll import plan_roll
 from polypod.controller.steering import PlanPose
 from polypod.controller.swing import begin_swing, swing_pace, wished_progress
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
+from polypod.math.intervals import wrap_phase
 from polypod.math.vec3 import Vec3, store_vec3
 
 # A leg that pulls at the body by so many leg lengths a frame may step out of turn, if it has stood
@@ -95,9 +97,16 @@ def way_off(
 
 @kernel
 def feet_needed(c: int, state: Any) -> int:
-    """Return how many feet must stay down: the gait's own minimum, less those that reach."""
+    """Return how many feet must stay down: the gait's own minimum, less those that reach.
+
+    Of many feet half are enough: where a gait always has as many up as it may, one that is late
+    keeps others down, and one that missed its turn would never get another.
+    """
+    count = state.swinging.shape[1]
     needed = state.least_down[c]
-    for k in range(state.swinging.shape[1]):
+    if count > MANY:
+        needed = min(needed, count // 2)
+    for k in range(count):
         if state.reaching[c, k] and needed > 1:
             needed -= 1
     return int(needed)
@@ -128,7 +137,8 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
 
     That is the one that most holds the body back: its leg pulls hardest at a body that its legs
     have slowed down, because it missed its turn. Or else one that found no place in its turn and
-    still looks for one. Where too few feet are down it waits.
+    still looks for one, or that of a slowed body which missed it for another reason: too few were
+    down then. Where too few feet are down it waits.
     """
     # No foot: not a literal, or all that is called with it would be compiled twice.
     count = state.swinging.shape[1]
@@ -142,8 +152,15 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
         if scratch.held[k] or state.stood[c, k] < OUT_OF_TURN_STOOD:
             continue
         pull = state.pull[c, k]
-        if pull < OUT_OF_TURN_PULL * tables.leg_length or state.hurry[c] < OUT_OF_TURN_HURRY:
-            pull = state.waiting[c, k] * WAITING_PULL * tables.leg_length
+        hurries = state.hurry[c] >= OUT_OF_TURN_HURRY
+        if pull < OUT_OF_TURN_PULL * tables.leg_length or not hurries:
+            waits = state.waiting[c, k]
+            due = wrap_phase(state.swing_start[c, k] - state.needle[c])
+            missed = state.stood[c, k] > 1.0 - 0.5 * state.swing_extent[c, k]
+            # One that is due soon waits, or it would step early ever after.
+            if hurries and missed and due > 0.5 * state.swing_extent[c, k]:
+                waits = max(waits, state.stood[c, k] / state.cycle_rate[c])
+            pull = waits * WAITING_PULL * tables.leg_length
         if pull > most:
             most = pull
             worst = k

@@ -113,4 +113,5 @@ def move_body(
         pose.detour,
         pose.pace,
         aside,
+        pose.gone,
     )

@@ -10,12 +10,13 @@ from polypod.body.reach import effector_world, may_drag
 from polypod.body.support import body_rotation, smooth_step
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
-from polypod.controller.parting import passes
+from polypod.controller.parting import MANY, passes
 from polypod.controller.rest import body_height_at, rest_ahead
 from polypod.controller.steering import PlanPose, predict
 from polypod.controller.swing import foot_along, swing_time_left
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
+from polypod.gait.pattern import SAME_MOMENT
 from polypod.math.intervals import wrap_phase
 from polypod.math.quat import Quat, load_quat, store_quat
 from polypod.math.vec3 import Vec3, length_plan, load_vec3, mix, store_vec3
@@ -75,6 +76,18 @@ def foot_later(
 
 
 @kernel
+def is_on_its_way(c: int, k: int, seconds: float, state: Any) -> bool:
+    """Return whether a foot that stands now will be in the air some seconds from now."""
+    rate = state.cycle_rate[c]
+    extent = state.swing_extent[c, k]
+    if rate <= 0.0 or swing_progress(state.needle[c], state.swing_start[c, k], extent) >= 0.0:
+        return False
+    gone = seconds * rate - wrap_phase(state.swing_start[c, k] - state.needle[c])
+    # Who changes places with it just then is not: rounding shall not decide.
+    return bool(SAME_MOMENT < gone < extent - SAME_MOMENT)
+
+
+@kernel
 def gather_other_legs(
     c: int, k: int, seconds: float, landing: PlanPose, state: Any, command: Any, tables: Any,
     settings: Any, env: Any, plan: Any,
@@ -84,19 +97,27 @@ def gather_other_legs(
     Of each leg whose foot could be met, the last section before the sole counts: where it will be
     `seconds` from now, when foot `k` lands under the body at `landing`, or where it lands then. So
     a hind foot may land in the print that the fore foot of its side has just left; but not where
-    the ground is such that the fore foot may find no place to go to.
+    the ground is such that the fore foot may find no place to go to. Of many legs one that is on
+    its way by then is nowhere that a whole path could keep clear of: only where it comes near in
+    time is judged, as of all of these legs, by `look_ahead`.
     """
     count = 0
+    near = 0
+    crowded = state.swinging.shape[1] > MANY
     legs = tables.legs
     for other in range(state.swinging.shape[1]):
         gap = load_vec3(legs.sole_stance[other]) - load_vec3(legs.sole_stance[k])
-        if other == k or length_plan(gap) > legs.length[k] or count >= plan.other_a.shape[0]:
+        if other == k or length_plan(gap) > legs.length[k] or near >= plan.ahead.leg.shape[0]:
             continue
         # In a run they do in mid-air, folded under the body: who kept clear of that would straddle.
         if may_drag(c, state) and passes(k, other, legs):
             continue
+        plan.ahead.leg[near] = other
+        near += 1
         sole = load_vec3(state.foot[c, other])
         if not state.swinging[c, other] and state.caution[c] < CAREFUL:
+            if crowded and is_on_its_way(c, other, seconds, state):
+                continue
             sole = foot_later(c, other, seconds, landing, command, state, tables, settings, env)
         elif state.swinging[c, other] and not hangs(c, other, state):
             sole = load_vec3(state.foot_target[c, other])
@@ -107,10 +128,9 @@ def gather_other_legs(
         plan.other_radius[count] = 0.25 * (
             legs.foot_half_size[other, 0] + legs.foot_half_size[other, 1]
         )
-        plan.ahead.leg[count] = other
         count += 1
     plan.ahead.own[0] = k
-    plan.ahead.others[0] = count
+    plan.ahead.others[0] = near
     return count
 
 

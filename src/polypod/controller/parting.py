@@ -23,6 +23,9 @@ TWIN = 1.5
 OF_FORE = 0.25
 # They have parted when the ends of their stances overlap, and begin so far before, leg lengths.
 PARTED = 0.3
+# More feet than these are many: half of them carry a body at any moment, and a wave of them is on
+# its way at once.
+MANY = 10
 
 
 @kernel

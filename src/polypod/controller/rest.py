@@ -45,8 +45,8 @@ def rest_offset(c: int, k: int, heading: float, state: Any, tables: Any, setting
     """Return `rest_ahead` of a body that is where it is, and has some heading there."""
     here = load_vec3(state.position[c])
     pose = PlanPose(
-        here.x, here.z, heading, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, load_deflection(c, state)
-    )
+        here.x, here.z, heading, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, load_deflection(c, state), 0.0,
+    )  # fmt: skip
     return rest_ahead(c, k, pose, state, tables, settings)
 
 

@@ -89,8 +89,11 @@ def heel_target(c: int, k: int, state: Any, command: Any, tables: Any) -> float:
         return 0.0
     duty = 1.0 - state.swing_extent[c, k]
     stood = wrap_phase(state.needle[c] - state.swing_start[c, k] - state.swing_extent[c, k])
-    # A foot that is still down in its swing sector stays up on its toes.
-    share = 1.0 if stood >= duty else stood / duty
+    share = stood / duty
+    if stood >= duty:
+        # A foot that is still down in its swing sector stays up on its toes; one that has landed a
+        # little before the sector's end, which has moved, lies.
+        share = 1.0 if state.stood[c, k] >= 0.5 * duty else 0.0
     rise = max(0.0, share - RISE_FROM[kind]) / (1.0 - RISE_FROM[kind])
     # One that has just landed out of turn stands first.
     settled = min(1.0, state.stood[c, k] / (0.5 * duty))

@@ -26,6 +26,18 @@ FROM_ABOVE = 0.1
 
 
 @kernel
+def drop_feet(c: int, above: float, state: Any, tables: Any, settings: Any, env: Any) -> None:
+    """Put every foot so many leg lengths above the ground at its rest place."""
+    pose = plan_pose(c, state)
+    for k in range(state.swinging.shape[1]):
+        offset = rest_offset(c, k, pose.heading, state, tables, settings)
+        x = pose.x + offset.x
+        z = pose.z + offset.z
+        height, _ = surface(env, x, z)
+        store_vec3(state.foot[c, k], Vec3(x, height + above * tables.legs.length[k], z))
+
+
+@kernel
 def stand_feet(
     c: int, first: bool, radius: float, state: Any, command: Any, tables: Any, settings: Any,
     env: Any, plan_settings: Any, scratch: Any,
@@ -39,12 +51,7 @@ def stand_feet(
         state.position[c, 1] = under + command.body_height[c]
         state.plane_height[c] = under
     pose = plan_pose(c, state)
-    for k in range(state.swinging.shape[1]):
-        offset = rest_offset(c, k, pose.heading, state, tables, settings)
-        x = pose.x + offset.x
-        z = pose.z + offset.z
-        height, _ = surface(env, x, z)
-        store_vec3(state.foot[c, k], Vec3(x, height + FROM_ABOVE * tables.legs.length[k], z))
+    drop_feet(c, FROM_ABOVE, state, tables, settings, env)
     # All feet are there before the first looks for its place: it keeps clear of the others' legs.
     for k in range(state.swinging.shape[1]):
         leg = tables.legs.length[k]
@@ -65,9 +72,15 @@ def stand_feet(
 
 @kernel
 def stand_body(
-    c: int, state: Any, command: Any, tables: Any, settings: Any, env: Any, scratch: Any
-) -> bool:
-    """Put the body over its feet, level with their plane; return whether all are in reach."""
+    c: int, at_rest: bool, state: Any, command: Any, tables: Any, settings: Any, env: Any,
+    scratch: Any,
+) -> bool:  # fmt: skip
+    """Put the body over its feet, level with their plane; return whether all are in reach.
+
+    Over the ground at the feet's rest places where they have no other: `at_rest`.
+    """
+    if at_rest:
+        drop_feet(c, 0.0, state, tables, settings, env)
     plane = feet_plane(c, state, tables)
     share = settings.tilt_share * tables.tilt_scale
     for axis in range(2):
@@ -96,13 +109,18 @@ def spawn(
 ) -> bool:  # fmt: skip
     """Stand a creature at its position and heading on the plane; return whether it can stand.
 
+    Where a foot finds no place the body was not where legs reach the ground: it is taken for level
+    at first. Then it lies along the ground under the feet's rest places.
+
     Plain Python over two kernels: one kernel around both would take as long again to compile.
     """
     radius = search_radius
     for turn in range(TURNS):
-        if stand_feet(
+        placed = stand_feet(
             c, turn == 0, radius, state, command, tables, settings, env, plan_settings, scratch
-        ) and stand_body(c, state, command, tables, settings, env, scratch):  # fmt: skip
+        )
+        fits = stand_body(c, not placed, state, command, tables, settings, env, scratch)
+        if placed and fits:
             return True
         radius *= SEARCH_GROWTH
     return False

@@ -14,6 +14,7 @@ from polypod.controller.turning import turn_rule
 from polypod.gait.tempo import GRAVITY
 from polypod.math.vec3 import Vec3, load_vec3
 from polypod.routes.aim import next_aim, way_left
+from polypod.spine.leading import kept_yaw
 
 PREDICTION_STEPS = 8
 # Closer than this to the last waypoint the heading is kept: its direction is noise.
@@ -50,6 +51,7 @@ class PlanPose(NamedTuple):
     detour: float  # rad by which the heading asked for is left aside, to pass what is forbidden
     pace: float  # share of the speed asked for that others leave it
     aside: Deflection  # by what a push the body is off its path; x, z, heading include it
+    gone: float  # m along its way since now, of a pose ahead
 
 
 @kernel
@@ -132,9 +134,16 @@ def steer(
     if pose.speed * pose.speed > 2.0 * acceleration * stop:
         loss = max(loss, braking)
     speed = pose.speed + min(gain, max(-loss, speed_asked - pose.speed))
+    advance = 0.5 * (pose.speed + speed) * dt
+    if state.led[c] and pose.gone + advance < tables.bend.kept:
+        # Where the head went the body goes.
+        turned = wrapped(
+            state.track_from[c] + kept_yaw(c, pose.gone + advance, state, tables) - on_heading
+        )
+        fastest = settings.turn_rate / tables.pendulum_time
+        turn_rate = min(max(turned / dt, -fastest), fastest)
     heading = wrapped(on_heading + turn_rate * dt + aside.heading)
     course = on_heading + 0.5 * turn_rate * dt + travel
-    advance = 0.5 * (pose.speed + speed) * dt
     return PlanPose(
         on_x + math.sin(course) * advance + aside.x,
         on_z + math.cos(course) * advance + aside.z,
@@ -146,6 +155,7 @@ def steer(
         pose.detour,
         pose.pace,
         aside,
+        pose.gone + advance,
     )
 
 
@@ -170,6 +180,7 @@ def plan_pose(c: int, state: Any) -> PlanPose:
         state.detour[c],
         state.pace[c],
         load_deflection(c, state),
+        0.0,
     )
 
 
@@ -191,6 +202,7 @@ def store_pose(c: int, pose: PlanPose, state: Any) -> None:
     state.steered[c, 12] = pose.aside.rate_x
     state.steered[c, 13] = pose.aside.rate_z
     state.steered[c, 14] = pose.aside.rate_heading
+    state.steered[c, 15] = pose.gone
 
 
 @kernel
@@ -199,8 +211,9 @@ def load_pose(c: int, state: Any) -> PlanPose:
     kept = state.steered[c]
     aside = Deflection(kept[9], kept[10], kept[11], kept[12], kept[13], kept[14])
     return PlanPose(
-        kept[0], kept[1], kept[2], kept[3], kept[4], kept[5], kept[6], kept[7], kept[8], aside
-    )
+        kept[0], kept[1], kept[2], kept[3], kept[4], kept[5], kept[6], kept[7], kept[8], aside,
+        kept[15],
+    )  # fmt: skip
 
 
 @kernel

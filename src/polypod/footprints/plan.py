@@ -200,7 +200,7 @@ def search(
             kept,
         )
         if kept == 0:
-            break
+            continue
         slices = place_slices(
             scratch.grid,
             window.highest,

@@ -45,13 +45,17 @@ def fastest_foot_speed(
     push_ahead = math.sin(course) * aside.rate_x + math.cos(course) * aside.rate_z
     push_left = math.cos(course) * aside.rate_x - math.sin(course) * aside.rate_z
     turn_rate = pose.turn_rate + aside.rate_heading
+    # Girdles that go where the head went do not swing sideways, and the head turns first.
+    swing = aside.rate_heading if state.led[c] else turn_rate
+    if state.led[c]:
+        turn_rate = max(abs(turn_rate), abs(state.front_rate[c]))
     most = 0.0
     for k in range(legs.length.shape[0]):
         across = legs.sole_stance[k, 0] + state.spacing[c, k, 0]
         along = legs.sole_stance[k, 2] + state.spacing[c, k, 1]
         # Heading turns +Z toward +X: a place at +X moves backward.
         forward = pose.speed + push_ahead - turn_rate * across
-        sideways = push_left + turn_rate * along
+        sideways = push_left + swing * along
         most = max(most, math.hypot(forward, sideways))
     if is_pushed(aside):
         most = math.hypot(most, WAY_BACK * tables.recovery * math.hypot(aside.x, aside.z))
@@ -92,7 +96,7 @@ def quickest_period(
     """
     alone = PlanPose(
         pose.x, pose.z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner,
-        pose.detour, pose.pace, NO_DEFLECTION,
+        pose.detour, pose.pace, NO_DEFLECTION, pose.gone,
     )  # fmt: skip
     speed = fastest_foot_speed(c, alone, state, command, tables)
     own = stride_at(c, speed, state, command, tables, settings)

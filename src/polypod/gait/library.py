@@ -78,7 +78,9 @@ _ENTRIES = {
     "scorpion": _Entry("arthropod", 0.60, 0.67, 0.75, lag=0.60),
     # Sideways, the leading (left) side stands longer.
     "crab": _Entry("arthropod", 0.60, 0.65, 0.70, lag=0.5, leading_share=0.04),
-    "centipede": _Entry("arthropod", 0.50, 0.60, 0.70, lag=0.10),
+    # From front to back, as giant centipedes' waves with long strides (Manton 1952, Kuroda 2022):
+    # each foot lands behind the one ahead of it. The other way legs would cross in mid-air.
+    "centipede": _Entry("arthropod", 0.50, 0.60, 0.70, lag=-0.10),
     "millipede": _Entry("arthropod", 0.60, 0.70, 0.80, lag=0.06, right=0.0),
 }
 _BIPED_DUTY = {"walk": (0.57, 0.62, 0.68)}

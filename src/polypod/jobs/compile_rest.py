@@ -54,7 +54,7 @@ def main() -> None:
         part(0, 0, 0, 0.0, *everything)
     begin_frame(0, 0, 0.0, herd.kernel_state, herd.kernel_tables)
     # On a creature that stands nowhere yet.
-    stand_body(0, *walker, env, herd.scratch(0))
+    stand_body(0, False, *walker, env, herd.scratch(0))
 
 
 def prepare_maps(env: Any) -> None:
@@ -112,7 +112,7 @@ def prepare_feet(
     from polypod.crowd.legs import is_taken
     from polypod.math.vec3 import Vec3
 
-    pose = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_DEFLECTION)
+    pose = PlanPose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, NO_DEFLECTION, 0.0)
     prepare(way_blocked, 0, 0, state, tables, env)
     prepare(is_taken, 0, 0, state, tables, scratch)
     place = Vec3(0.0, 0.0, 0.0)

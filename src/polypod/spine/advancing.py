@@ -5,7 +5,7 @@ what is steered, and a spine lies along its track: behind the body centre along 
 come, ahead of it along the way that `steer` will take. So each girdle goes where the one ahead of
 it went, at any frame rate, and the head is first in a turn. Who turns on the spot leaves no track:
 there the back keeps its heading as far as limits allow, and comes round in its own time, which is
-P2's relaxation of the back node.
+P2's relaxation of the back node. Long bodies are led by their heads: see `spine.leading`.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, steer, wrapped
+from polypod.spine.leading import KEPT, follows_head, go_on, keep_bent, kept_yaw, lead_on
 
 # The track behind is kept at so many places.
 TRACK = 48
@@ -33,8 +34,10 @@ WALKING = 0.08
 
 
 @kernel
-def note_track(c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any) -> None:
-    """Take the track behind the body centre to the end of a step.
+def note_track(
+    c: int, dt: float, pose: PlanPose, state: Any, command: Any, tables: Any, settings: Any
+) -> None:
+    """Take the track behind the body centre, and what is kept ahead of it, to the end of a step.
 
     `track[c]` are yaws against the present heading, the first `track_gone` behind the body centre
     and the others `track_step` apart.
@@ -64,6 +67,15 @@ def note_track(c: int, dt: float, pose: PlanPose, state: Any, command: Any, tabl
             track[i] = track[i - 1]
         track[0] = here
     state.track_gone[c] = gone
+    led = state.led[c]
+    state.led[c] = follows_head(c, pose.speed, state, command, tables, settings)
+    if not state.led[c]:
+        return
+    if not led:
+        keep_bent(c, state, tables)
+    go_on(c, speed * dt, turned, state, tables)
+    error = wrapped(command.heading[c] + pose.detour - heading - state.kept_way[c, KEPT + 1])
+    lead_on(c, dt, error, speed, state, command, tables, settings)
 
 
 @kernel
@@ -86,7 +98,7 @@ def note_way(c: int, pose: PlanPose, state: Any, command: Any, tables: Any, sett
     begun = pose.heading - pose.aside.heading
     then = PlanPose(
         pose.x, pose.z, pose.heading, pose.turn_rate, speed, pose.waypoint, pose.corner,
-        pose.detour, pace, pose.aside,
+        pose.detour, pace, pose.aside, 0.0,
     )  # fmt: skip
     for i in range(MOMENTS):
         before = then
@@ -102,6 +114,8 @@ def yaw_along(c: int, place: float, state: Any, tables: Any) -> float:
 
     Behind it where negative. Where the way is not known the last of it goes on straight.
     """
+    if state.led[c] and 0.0 <= place < tables.bend.kept:
+        return kept_yaw(c, place, state, tables)
     if place < 0.0:
         track = state.track[c]
         gone = float(state.track_gone[c])
@@ -128,9 +142,16 @@ def left_along(c: int, place: float, lead: float, ahead: float, state: Any, tabl
     """Return how far to the left of the body's axis the track is, m, `place` ahead of its centre.
 
     Of a track that is looked at `ahead` metres farther on and taken on by a share, `lead`; by
-    Simpson's rule.
+    Simpson's rule, in pieces no longer than a leg.
     """
     here = yaw_along(c, ahead, state, tables)
-    half = yaw_along(c, ahead + 0.5 * place, state, tables) - here
-    whole = yaw_along(c, ahead + place, state, tables) - here
-    return place * (4.0 * math.sin(lead * half) + math.sin(lead * whole)) / 6.0
+    pieces = max(math.ceil(abs(place) / tables.leg_length), 1)
+    piece = place / pieces
+    left = 0.0
+    before = 0.0
+    for i in range(pieces):
+        half = yaw_along(c, ahead + (i + 0.5) * piece, state, tables) - here
+        whole = math.sin(lead * (yaw_along(c, ahead + (i + 1.0) * piece, state, tables) - here))
+        left += piece * (before + 4.0 * math.sin(lead * half) + whole) / 6.0
+        before = whole
+    return left

@@ -11,10 +11,11 @@ from polypod.compute import kernel
 from polypod.controller.steering import PlanPose
 from polypod.math.quat import Quat
 from polypod.math.vec3 import Vec3, store_vec3
-from polypod.spine.advancing import MOMENTS, left_along, note_track, note_way, yaw_along
+from polypod.spine.advancing import MOMENTS, RELAX, left_along, note_track, note_way, yaw_along
 from polypod.spine.chain import place_segments
 from polypod.spine.curve import draw_curve, room_for
-from polypod.spine.elevation import bounce_girdles, carry_girdles, induce
+from polypod.spine.elevation import bounce_girdles, carry_girdles, induce, roll_girdles
+from polypod.spine.leading import is_walking
 from polypod.spine.orientation import pass_back, turn_neck, wished_gaze
 from polypod.spine.struck import yield_to_push
 from polypod.spine.tail import swing_tail
@@ -49,30 +50,31 @@ def bend_spine(
         return
     pendulum = tables.pendulum_time
     along = max(0.0, math.cos(command.travel[c]))
-    follow(state.spine_share[c, 0], settings.spine * along, ADOPT * pendulum, dt)
+    follow_way(c, dt, pose, settings.spine * along, state, command, tables)
     follow(state.spine_share[c, 1], settings.spine, ADOPT * pendulum, dt)
-    note_track(c, dt, pose, state, command, tables)
+    note_track(c, dt, pose, state, command, tables, settings)
     note_way(c, pose, state, command, tables, settings)
     guide_girdles(c, dt, pose, state, tables, scratch)
     seconds = 4.0 * pendulum
     if state.cycle_rate[c] > 0.0:
         seconds = min(seconds, 1.0 / state.cycle_rate[c])
     carry_girdles(c, dt, settings.height_smoothing * seconds, plane, state, tables)
+    roll_girdles(c, dt, settings.tilt_smoothing * seconds, plane, state, tables, settings, scratch)
     node = scratch.node
     more = scratch.more
     for g in range(node.shape[0]):
-        for axis in range(4):
+        for axis in range(node.shape[1]):
             node[g, axis] = state.girdle_bend[c, g, axis, 0]
             more[g, axis] = node[g, axis]
     bounce_girdles(c, more, state, tables)
-    induce(c, more, state, command, tables, settings)
+    induce(c, dt, more, state, command, tables, settings)
     send_wave(c, more, state, tables, settings, scratch)
     yield_to_push(c, dt, more, state, tables)
     chest, inside = draw_curve(c, more, state, tables)
     # The way comes first: the gait bends the spine by what the limits leave.
     share = 1.0 if inside else room_for(node, more, tables)
     for g in range(node.shape[0]):
-        for axis in range(4):
+        for axis in range(node.shape[1]):
             node[g, axis] += share * (more[g, axis] - node[g, axis])
     if not inside:
         chest, _ = draw_curve(c, node, state, tables)
@@ -81,13 +83,32 @@ def bend_spine(
 
 
 @kernel
-def swing_seconds(place: float, speed: float, tables: Any) -> float:
+def follow_way(
+    c: int, dt: float, pose: PlanPose, share: float, state: Any, command: Any, tables: Any
+) -> None:
+    """Let a spine take on more or less of the track, up to a share of it.
+
+    A long body that stands takes on nothing: legs that step on the spot could follow neither a
+    front that swings where it is to go nor a back that stays behind. It straightens, and turns as
+    it is, as slowly as it would relax.
+    """
+    seconds = ADOPT * tables.pendulum_time
+    if tables.bend.kept > 0.0 and not is_walking(c, pose.speed, command, tables):
+        share = 0.0
+        seconds = RELAX * tables.bend.kept / tables.leg_length * tables.pendulum_time
+    follow(state.spine_share[c, 0], share, seconds, dt)
+
+
+@kernel
+def swing_seconds(c: int, place: float, speed: float, state: Any, tables: Any) -> float:
     """Return the time in which a girdle follows, s; `place` is how far it is ahead, m.
 
     One far ahead swings aside no faster than it walks: its feet are to follow it. Who turns on the
-    spot steps with all of them.
+    spot steps with all of them, and who is led by its head never swings aside.
     """
     pendulum = tables.pendulum_time
+    if state.led[c]:
+        return float(SMOOTH * pendulum)
     far = max(place - AT_ONCE * tables.leg_length, 0.0)
     slow = STANDING * tables.leg_length / pendulum
     return float(max(SMOOTH * pendulum, far * speed / (speed * speed + slow * slow)))
@@ -101,12 +122,13 @@ def guide_girdles(c: int, dt: float, pose: PlanPose, state: Any, tables: Any, sc
     wish = scratch.wish
     for g in range(place.shape[0]):
         # Where the track is by the time that the filter has caught up.
-        ahead = LAG * swing_seconds(place[g], pose.speed, tables) * pose.speed * min(1.0, lead)
+        seconds = swing_seconds(c, place[g], pose.speed, state, tables)
+        ahead = LAG * seconds * pose.speed * min(1.0, lead)
         here = yaw_along(c, ahead, state, tables)
         wish[g] = lead * (yaw_along(c, ahead + place[g], state, tables) - here)
     pass_back(c, wish, state, tables)
     for g in range(place.shape[0]):
-        seconds = swing_seconds(place[g], pose.speed, tables)
+        seconds = swing_seconds(c, place[g], pose.speed, state, tables)
         ahead = LAG * seconds * pose.speed * min(1.0, lead)
         left = left_along(c, place[g], lead, ahead, state, tables)
         # No farther than a bend within the limits leads.

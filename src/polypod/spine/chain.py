@@ -107,7 +107,10 @@ def keep_bend(c: int, share: float, state: Any, tables: Any) -> None:
     store_vec3(state.spine_base[c], base + load_vec3(state.spine_base_wish[c]) * share)
     # What steered it goes on from there too, or it would ask for ever more of feet that hold it.
     for g in range(state.girdle_bend.shape[1]):
-        for axis in range(4):
+        was = state.girdle_sway[c, g, 1]
+        state.girdle_sway[c, g, 0] = was + share * (state.girdle_sway[c, g, 0] - was)
+        state.girdle_sway[c, g, 1] = state.girdle_sway[c, g, 0]
+        for axis in range(state.girdle_bend.shape[2]):
             for i in range(3):
                 was = state.girdle_was[c, g, axis, i]
                 gone = share * (state.girdle_bend[c, g, axis, i] - was)

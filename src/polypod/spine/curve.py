@@ -4,7 +4,8 @@ Nodes are the girdles where steps 1 to 3 want them, with the directions in which
 segment that carries a girdle takes its direction, one between two girdles that of the curve where
 it lies at rest; the bones keep their length, and the whole is put where it fits the nodes best. So
 girdles may end elsewhere than steps 1 to 3 wanted them, and what these keep for themselves is not
-touched (P2 5.4). No segment rolls about itself on the way: each faces up as the body does.
+touched (P2 5.4). A segment rolls about itself only as far as it takes its girdles from one bank to
+another: else each faces up as the body does.
 """
 
 from __future__ import annotations
@@ -61,18 +62,31 @@ def segment_way(s: int, node: Any, tables: Any) -> Vec3:
 
 
 @kernel
+def segment_roll(s: int, node: Any, tables: Any) -> float:
+    """Return the roll of a segment of the trunk: its girdles', or between two its share of both."""
+    bend = tables.bend
+    first = bend.first_girdle[s]
+    if first >= 0:
+        return 0.5 * float(node[first, 4] + node[bend.last_girdle[s], 4])
+    g = bend.behind[s]
+    along = 0.5 * (bend.begin[s] + bend.end[s])
+    return float(node[g, 4] + along * (node[g + 1, 4] - node[g, 4]))
+
+
+@kernel
 def segment_turn(s: int, node: Any, tables: Any) -> Quat:
     """Return the rotation that a segment of the trunk is to have against the body frame."""
     way = segment_way(s, node, tables)
     yaw = math.atan2(way.x, way.z)
-    return joint_turn(yaw, math.atan2(way.y, math.hypot(way.x, way.z)), 0.0)
+    pitch = math.atan2(way.y, math.hypot(way.x, way.z))
+    return joint_turn(yaw, pitch, segment_roll(s, node, tables))
 
 
 @kernel
 def room_for(node: Any, more: Any, tables: Any) -> float:
     """Return the share of what is to be added to the nodes that the joints' limits leave room for.
 
-    `node` and `more` are [G, 4]; angles are taken to add up as far as each bends.
+    `node` and `more` are [G, 5]; angles are taken to add up as far as each bends.
     """
     limit = tables.spine.limit
     share = 1.0
@@ -103,8 +117,8 @@ def draw_curve(c: int, node: Any, state: Any, tables: Any) -> tuple[Quat, bool]:
     """Write the angles of the trunk's joints, and where it begins; return the chest's rotation.
 
     And whether all angles were within their limits, into which they are brought.
-    `node` [G, 4] says for each girdle how far it is to be to the left and up, m, and its yaw and
-    pitch, rad, against the body frame.
+    `node` [G, 5] says for each girdle how far it is to be to the left and up, m, and its yaw, pitch
+    and roll, rad, against the body frame.
     """
     spine = tables.spine
     turn = Quat(0.0, 0.0, 0.0, 1.0)

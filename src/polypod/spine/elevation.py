@@ -13,8 +13,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from polypod.body.reach import may_drag
 from polypod.body.smoothing import follow
-from polypod.body.support import FeetPlane
+from polypod.body.support import LEVEL_WIDTH, FeetPlane, foot_on_its_way
 from polypod.compute import kernel
 from polypod.controller.rest import place_body
 
@@ -26,6 +27,12 @@ FLEXION = 0.35
 PELVIC_YAW = math.radians(18.0)
 MOST_YAW_SHARE = 2.0
 LEAST_YAW = 0.02
+# No girdle turns more than so many times as fast as one that takes all of a steady gait's swing to
+# turn from side to side: a foot that catches up in two frames does not jerk it round. Feet are up
+# to twice as fast. In runs it does as they do: strides are longer by it.
+FASTEST_YAW = 1.5
+# Who stands could step so many times in a leg pendulum time.
+SLOWEST = 0.25
 # Feet that step far for once yaw a girdle by no more than so many times that.
 BEYOND = 1.15
 
@@ -63,6 +70,62 @@ def carry_girdles(
 
 
 @kernel
+def roll_girdles(
+    c: int, dt: float, seconds: float, plane: FeetPlane, state: Any, tables: Any, settings: Any,
+    scratch: Any,
+) -> None:  # fmt: skip
+    """Let girdles lie along the slope across their own feet, away from the body's (P2 5.3).
+
+    Where fore and hind feet stand on banks that fall to opposite sides the spine shares the twist
+    between its girdles, as far as it rolls. The body lies along what they have in common.
+    """
+    roll = scratch.wish
+    count = roll.shape[0]
+    share = settings.tilt_share * tables.tilt_scale * state.spine_share[c, 1, 0]
+    mean = 0.0
+    for i in range(count):
+        g = count - 1 - i
+        roll[g] = share * math.atan(own_slope(c, g, plane, state, tables))
+        if i > 0:
+            gap = tables.bend.roll_gap[g]
+            roll[g] = min(max(roll[g], roll[g + 1] - gap), roll[g + 1] + gap)
+        mean += roll[g] / count
+    for g in range(count):
+        follow(state.girdle_bend[c, g, 4], roll[g] - mean, seconds, dt)
+
+
+@kernel
+def own_slope(c: int, g: int, plane: FeetPlane, state: Any, tables: Any) -> float:
+    """Return the slope to the left across a girdle's own feet, beside the plane's under all feet.
+
+    It leans to that plane as that leans to level ground.
+    """
+    sine = math.sin(state.heading[c])
+    cosine = math.cos(state.heading[c])
+    feet = 0
+    x = 0.0
+    up = 0.0
+    xx = 0.0
+    xy = 0.0
+    for k in range(tables.girdles.of_leg.shape[0]):
+        if tables.girdles.of_leg[k] != g:
+            continue
+        place = foot_on_its_way(c, k, state)
+        off_x = place.x - state.position[c, 0]
+        off_z = place.z - state.position[c, 2]
+        forward = off_x * sine + off_z * cosine
+        left = off_x * cosine - off_z * sine
+        over = place.y - plane.height - plane.slope_forward * forward - plane.slope_left * left
+        feet += 1
+        x += left
+        up += over
+        xx += left * left
+        xy += left * over
+    lean = (LEVEL_WIDTH * tables.leg_length) ** 2
+    return (xy - x * up / feet) / (xx - x * x / feet + lean * feet)
+
+
+@kernel
 def slope_at(g: int, up: Any, tables: Any) -> float:
     """Return the slope along the spine at a girdle where girdles are so far up [G], m."""
     place = tables.girdles.place
@@ -73,7 +136,7 @@ def slope_at(g: int, up: Any, tables: Any) -> float:
 
 @kernel
 def bounce_girdles(c: int, node: Any, state: Any, tables: Any) -> None:
-    """Add to the nodes [G, 4] what their own particles move them by beside the whole trunk (P2 4).
+    """Add to the nodes [G, 5] what their own particles move them by beside the whole trunk (P2 4).
 
     Heave and nod are the body's own; of two girdles nothing is left.
     """
@@ -99,8 +162,10 @@ def bounce_girdles(c: int, node: Any, state: Any, tables: Any) -> None:
 
 
 @kernel
-def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: Any) -> None:
-    """Add to the nodes' yaw and pitch [G, 4] what their feet induce."""
+def induce(
+    c: int, dt: float, node: Any, state: Any, command: Any, tables: Any, settings: Any
+) -> None:
+    """Add to the nodes' [G, 5] yaw and pitch what their feet induce."""
     girdles = tables.girdles
     legs = tables.legs
     share = state.spine_share[c, 1, 0]
@@ -112,6 +177,7 @@ def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: A
         yaw = 0.0
         pitch = 0.0
         size = 0.0
+        swing = 0.0
         feet = 0
         for k in range(legs.length.shape[0]):
             if girdles.of_leg[k] != g:
@@ -134,12 +200,27 @@ def induce(c: int, node: Any, state: Any, command: Any, tables: Any, settings: A
                 at_ahead * stand_ahead + at_left * stand.x,
             )
             size += step_yaw(c, k, stand.x, state, command)
+            swing += state.swing_extent[c, k]
         node[g, 3] += share * settings.spine_flexion * FLEXION * pitch / feet
         whole = tables.bend.apart * PELVIC_YAW
         part = min(whole * feet / max(size, LEAST_YAW), MOST_YAW_SHARE)
         most = whole * BEYOND
         turned = min(max(part * yaw / feet, -most), most)
-        node[g, 2] += share * settings.spine_yaw * turned
+        if swing > 0.0 and not may_drag(c, state):
+            most = FASTEST_YAW * 2.0 * whole * dt * feet / swing * steady_rate(c, state, tables)
+            was = state.girdle_sway[c, g, 1]
+            turned = min(max(turned, was - most), was + most)
+        state.girdle_sway[c, g, 0] = turned
+        # Feet of a long body that turns on the spot would turn each girdle another way.
+        yawing = min(share, state.spine_share[c, 0, 0]) if tables.bend.kept > 0.0 else share
+        node[g, 2] += yawing * settings.spine_yaw * turned
+
+
+@kernel
+def steady_rate(c: int, state: Any, tables: Any) -> float:
+    """Return the cycles a second of a creature's gait, were it not hurried by legs at their end."""
+    rate = state.cycle_rate[c] / (1.0 + state.hurry[c])
+    return float(max(rate, SLOWEST / tables.pendulum_time))
 
 
 @kernel

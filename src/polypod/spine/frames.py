@@ -13,9 +13,10 @@ from typing import Any
 
 from polypod.compute import kernel
 from polypod.controller.steering import PlanPose, wrapped
-from polypod.math.quat import Quat, from_axis_angle, from_heading, load_quat, rotate
+from polypod.math.quat import Quat, load_quat, rotate
 from polypod.math.vec3 import Vec3, load_vec3
-from polypod.spine.advancing import yaw_along
+from polypod.spine.advancing import left_along, yaw_along
+from polypod.spine.chain import joint_turn
 
 # How quickly a girdle is on the track that it is off: for its own distance from the body centre
 # that the body goes, or a radian that it turns, as an exponential of so much.
@@ -83,7 +84,11 @@ def girdle_ahead(c: int, g: int, then: PlanPose, state: Any, tables: Any) -> tup
     share = math.exp(-CARRY * gone / max(abs(place), 1e-9) - CARRY * abs(turned))
     now = min(max(lead * yaw_along(c, place, state, tables), -most), most)
     yaw = later + (yaw - now) * share
-    return 0.5 * yaw * place, yaw
+    if abs(place) <= tables.leg_length:
+        return 0.5 * yaw * place, yaw
+    # A long way is no arc of one bend.
+    off = left - left_along(c, place, lead, 0.0, state, tables)
+    return left_along(c, place, lead, gone, state, tables) + off * share, yaw
 
 
 @kernel
@@ -98,8 +103,7 @@ def leg_frame_at(
         return position, turn
     g = tables.girdles.of_leg[k]
     left, yaw = girdle_ahead(c, g, then, state, tables)
-    pitch = from_axis_angle(Vec3(1.0, 0.0, 0.0), -state.girdle_bend[c, g, 3, 0])
-    carried = from_heading(yaw) * pitch
+    carried = joint_turn(yaw, state.girdle_bend[c, g, 3, 0], state.girdle_bend[c, g, 4, 0])
     rest = load_vec3(tables.spine.girdle_rest[g])
     # Along an arc it is a little nearer than straight ahead.
     nearer = rest.z * yaw * yaw / 6.0

@@ -54,7 +54,7 @@ def half_span(tables: Any) -> float:
 
 @kernel
 def yield_to_push(c: int, dt: float, node: Any, state: Any, tables: Any) -> None:
-    """Bend the nodes [G, 4] by what pushes left of a bend, and let that spring back."""
+    """Bend the nodes [G, 5] by what pushes left of a bend, and let that spring back."""
     struck = state.spine_share[c, 1, 0] * spring_back(c, dt, state, tables)
     place = tables.girdles.place
     half = 0.5 * (place[place.shape[0] - 1] - place[0])

@@ -10,9 +10,12 @@ from polypod.morphology.girdles import Girdles
 from polypod.morphology.spine import SpineTable
 from polypod.morphology.types import FloatArray, IntArray, LegTable
 from polypod.spine.advancing import TRACK
+from polypod.spine.leading import BEYOND, LONG
 
 # Of what joints allow the track takes so much: the rest is for what a gait bends a spine by.
 FOR_TURNS = 0.8
+# And so much of the roll: what turns a joint two ways at once rolls it a little.
+FOR_BANKS = 0.9
 # The track behind is kept as far as tail or trunk reach, and a little farther.
 BEHIND = 1.05
 # Girdles nearer to each other than this, leg lengths, yaw less by their feet, by the square: a wave
@@ -20,8 +23,9 @@ BEHIND = 1.05
 APART = 1.2
 # The inner feet need so many times as much room in a turn as they stand beside the middle.
 ROOM_INSIDE = 2.6
-# And so many more where each has the next one close by.
-CROWDED_INSIDE = 6.0
+# And so many times more where each has the next one close by: a centipede of 1.3 m walks on arcs of
+# 0.63 m at its full pace, and on tighter ones its legs hold it up (0.5 m: 0.73 of it).
+CROWDED_INSIDE = 3.0
 
 
 class BendTable(NamedTuple):
@@ -29,6 +33,7 @@ class BendTable(NamedTuple):
 
     most_yaw: FloatArray  # [G] rad by which limits let a girdle turn against the body's axis
     yaw_gap: FloatArray  # [G] rad, and against the next girdle ahead; 0 for the foremost
+    roll_gap: FloatArray  # [G] rad by which a girdle may roll against the next one ahead
     apart: float  # 1; less where girdles are nearer to each other than `APART`
     tightest: float  # 1/m, the curvature of the tightest arc on which the trunk can lie; 0: rigid
     neck_range: FloatArray  # [3] rad: yaw, pitch and roll of all joints of the neck together
@@ -38,6 +43,7 @@ class BendTable(NamedTuple):
     begin: FloatArray  # [S] where it begins and ends at rest, shares of the way from that girdle
     end: FloatArray  # [S] to the next
     track_step: float  # m, from one place of the track behind to the next
+    kept: float  # m, how far ahead its way is kept, whose head leads it; 0: its middle does
 
 
 def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> BendTable:
@@ -65,9 +71,11 @@ def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> Bend
             begin[s], end[s] = max(end[s] - 0.5, 0.0), min(begin[s] + 0.5, 1.0)
     back = min(float(girdles.place[0]), float(z[0]), float(spine.tail_pivot_rest[:, 2].min()))
     reach = max(BEHIND * -back, 1e-6)
+    front = float(girdles.place[-1])
     return BendTable(
         most_yaw=most_yaw(spine, girdles),
-        yaw_gap=yaw_gap(spine, girdles),
+        yaw_gap=gaps(spine, girdles, 0, FOR_TURNS),
+        roll_gap=gaps(spine, girdles, 2, FOR_BANKS),
         apart=apart * apart,
         tightest=tightest(spine, girdles, float(np.abs(legs.sole_stance[:, 0]).mean()), apart),
         neck_range=spine.limit[spine.neck :].sum(axis=0).reshape(3) if segments else np.zeros(3),
@@ -77,16 +85,20 @@ def make_bend_table(spine: SpineTable, girdles: Girdles, legs: LegTable) -> Bend
         begin=begin,
         end=end,
         track_step=reach / (TRACK - 2),
+        kept=BEYOND * front if segments and front >= LONG * leg_length else 0.0,
     )
 
 
-def yaw_gap(spine: SpineTable, girdles: Girdles) -> FloatArray:
-    """Return [G] how far, rad, each girdle may yaw against the next one ahead."""
+def gaps(spine: SpineTable, girdles: Girdles, axis: int, share: float) -> FloatArray:
+    """Return [G] how far, rad, each girdle may turn against the next one ahead; 0 for the foremost.
+
+    About an axis of the limits, 0 yaw to 2 roll, by a share of what the joints between allow.
+    """
     gap = np.zeros(len(girdles.place))
     for g in range(len(gap) - 1):
         if len(spine.joint):
             joints = slice(spine.of_girdle[g] + 1, spine.of_girdle[g + 1] + 1)
-            gap[g] = FOR_TURNS * spine.limit[joints, 0].sum()
+            gap[g] = share * spine.limit[joints, axis].sum()
     return gap
 
 
@@ -100,7 +112,7 @@ def tightest(spine: SpineTable, girdles: Girdles, beside: float, apart: float) -
     if span <= 0.0:
         return 0.0
     room = ROOM_INSIDE + CROWDED_INSIDE * (1.0 - apart)
-    return min(float(yaw_gap(spine, girdles).sum()) / span, 1.0 / (room * beside))
+    return min(float(gaps(spine, girdles, 0, FOR_TURNS).sum()) / span, 1.0 / (room * beside))
 
 
 def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
@@ -109,5 +121,5 @@ def most_yaw(spine: SpineTable, girdles: Girdles) -> FloatArray:
     All that the spine bends from the hindmost to the foremost, shared as they lie along it.
     """
     span = float(girdles.place[-1] - girdles.place[0])
-    whole = float(yaw_gap(spine, girdles).sum())
+    whole = float(gaps(spine, girdles, 0, FOR_TURNS).sum())
     return np.asarray(whole * np.abs(girdles.place) / span) if span > 0.0 else 0.0 * girdles.place

@@ -35,12 +35,13 @@ def quadrature(needle: float, start: float, extent: float) -> float:
     """Return the rate at which a foot moves ahead of its girdle, as a share of the stride's most.
 
     1 in the middle of its swing and -1 in the middle of its stance, of a disk whose swing begins
-    at `start` and goes on for `extent` of the cycle.
+    at `start` and goes on for `extent` of the cycle. Squared, so that hardly anything is left near
+    touchdown and lift-off, where legs are at their longest.
     """
     since = (needle - start) % 1.0
     if since < extent:
-        return math.sin(math.pi * since / extent)
-    return -math.sin(math.pi * (since - extent) / (1.0 - extent))
+        return math.sin(math.pi * since / extent) ** 2
+    return -(math.sin(math.pi * (since - extent) / (1.0 - extent)) ** 2)
 
 
 @kernel
@@ -62,7 +63,7 @@ def girdle_rate(g: int, c: int, state: Any, tables: Any) -> float:
 
 @kernel
 def send_wave(c: int, node: Any, state: Any, tables: Any, settings: Any, scratch: Any) -> None:
-    """Add to the nodes' places [G, 4] what lets the wave of a fast sprawler's trunk travel."""
+    """Add to the nodes' places [G, 5] what lets the wave of a fast sprawler's trunk travel."""
     girdles = tables.girdles
     legs = tables.legs
     swing = 0.0
