@@ -164,3 +164,16 @@ def test_pushes_are_judged() -> None:
     assert stage.herd.state.position[0, 0] > 0.02
     with pytest.raises(SettingError, match="no creature 4"):
         judge_push(stage, {"creature": 4, "velocity": [1.0, 0.0, 0.0], "at": 0.0})
+
+
+def test_who_lets_go_of_a_gait_is_judged_by_the_one_that_its_speed_asks_for() -> None:
+    stage = stage_of()
+    walk(stage, 0.5)
+    followed = stage.question().gait.name
+    gait = stage.question().gait
+    start, extent = gait.swing_start.tolist(), gait.swing_extent.tolist()
+    drawn = {"name": "edited", "start": start, "extent": extent}
+    change(stage, "gait", to=drawn)
+    assert stage.question().gait.name == "edited"
+    change(stage, "gait", to=None)
+    assert stage.question().gait.name == followed

@@ -75,6 +75,8 @@ class Studio:
         """Answer `POST /rig`: take a rig in, and say what was found in it."""
         data = await _body(request, LARGEST_FILE, "a rig")
         name = request.query_params.get("name", "rig")
+        document = await self._between_frames(lambda conductor: conductor.stage.document)
+        self.rigs.use({one["rig"] for one in (document["creature"], *document["crowd"])})
         return JSONResponse(await self._judge(lambda: self._take(data, name)))
 
     async def judge(self, request: Request) -> Response:

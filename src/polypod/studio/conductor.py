@@ -12,6 +12,7 @@ from polypod.studio.asked import disks_of, facts_of
 from polypod.studio.document import Document, edited, judged
 from polypod.studio.frames import Focus, MotionMeter, pack_frame
 from polypod.studio.history import History
+from polypod.studio.judge import Judge
 from polypod.studio.meshes import ground_reach, pack_ground, pack_skin
 from polypod.studio.messages import (
     clock_message,
@@ -54,6 +55,8 @@ class Conductor:
         self._overlays_told = 0.0
         self._tell, self._event = tell, event
         self._last = b""
+        self._judge = Judge()
+        self._check = stage.question().answer()
         self._renew_skins()
         self._renew_ground()
 
@@ -67,7 +70,7 @@ class Conductor:
             kinds_message(self),
             document_message(self),
             clock_message(self),
-            verdict_message(self),
+            verdict_message(self._check),
             tape_message(self),
         ]
 
@@ -88,6 +91,7 @@ class Conductor:
 
     def step(self, dt: float) -> None:
         """Walk on by a step, and send a frame; who scrubs sees the tape."""
+        self._tell_verdict()
         if self.scrubbed is not None:
             return
         self.stage.step(dt)
@@ -97,7 +101,14 @@ class Conductor:
 
     def rest(self, now: float) -> None:
         """Do what is to be done while time stands still."""
+        self._tell_verdict()
         self._send_overlays()
+
+    def _tell_verdict(self) -> None:
+        check = self._judge.take()
+        if check is not None:
+            self._check = check
+            self.say(verdict_message(check))
 
     def _send_frame(self, dt: float | None = None) -> None:
         stage = self.stage
@@ -183,7 +194,7 @@ class Conductor:
             self._begin_anew(applied.creature)
         self.say(document_message(self))
         if any(document[k] != before[k] for k in ("creature", "gait", "command")):
-            self.say(verdict_message(self))
+            self._judge.ask(self.stage.question())
         if not self.playing or applied.creature:
             self._send_frame()
 

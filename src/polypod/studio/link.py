@@ -10,10 +10,11 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
 
+from anyio import create_task_group, to_thread
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from polypod.errors import PolypodError
@@ -69,33 +70,32 @@ class Hub:
 
     async def serve(self, websocket: WebSocket) -> None:
         """Stay with a page from the moment it connects until it leaves."""
+        with suppress(WebSocketDisconnect):
+            await self._stay(websocket)
+
+    async def _stay(self, websocket: WebSocket) -> None:
         await websocket.accept()
         if len(self.tabs) >= MOST_TABS:
             await websocket.close(TRY_AGAIN_LATER, f"{MOST_TABS} tabs are open; close one")
             return
         tab = Tab()
         self._enter(tab)
-        tasks: list[asyncio.Task[None]] = []
         try:
             # Whatever is told while the greeting is put together waits behind it.
-            for message in await asyncio.to_thread(self.runner.greeting):
+            for message in await to_thread.run_sync(self.runner.greeting):
                 telling = self._for(tab, Telling("text", message))
                 await websocket.send_text(as_json(telling.content))
-            tasks = [
-                asyncio.create_task(self._read(websocket, tab)),
-                asyncio.create_task(self._write(websocket, tab)),
-            ]
-            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-            for task in done:
-                task.result()
-        except (WebSocketDisconnect, RuntimeError):
-            # It left, which Starlette says in one of these two ways while something is sent.
-            return
+            async with create_task_group() as group:
+
+                async def both_ways(work: Callable[[WebSocket, Tab], Awaitable[None]]) -> None:
+                    with suppress(WebSocketDisconnect):
+                        await work(websocket, tab)
+                    group.cancel_scope.cancel()
+
+                group.start_soon(both_ways, self._write)
+                group.start_soon(both_ways, self._read)
         finally:
             self._leave(tab)
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
 
     def _enter(self, tab: Tab) -> None:
         if not self.tabs:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from polypod import __version__
 from polypod.environment.generators import GENERATORS, generator_keys
+from polypod.gait.validation import GaitCheck
 from polypod.morphology.builtin import NAMES as BUILT_IN
 
 if TYPE_CHECKING:
@@ -62,9 +63,8 @@ def clock_message(conductor: Conductor) -> Message:
     }
 
 
-def verdict_message(conductor: Conductor) -> Message:
+def verdict_message(check: GaitCheck) -> Message:
     """Say what to think of the gait (P2 4)."""
-    check = conductor.stage.verdict()
     return {
         "is": "verdict",
         "verdict": check.verdict,

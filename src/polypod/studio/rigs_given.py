@@ -1,7 +1,8 @@
 """Rigs that users give: taken in, found again, and judged for the page.
 
-A rig of the document is a built-in's name, or `upload:` and the SHA-256 of a file. The files lie in
-a folder of the studio's own, under names that nobody else chose, and are deleted at its end.
+A rig of the document is a built-in's name, or `upload:` and the SHA-256 of a file. Each file lies
+in a folder of that name, in one of the studio's own that is deleted at its end; its own name, by
+which the creature is called, is cleaned of all but letters, digits and the like.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ LONGEST_WORD = 1000  # characters of a reason: a stranger's joints may have name
 ASKED = ("rig", "leg", "spine", "forward", "height")
 # What sentences for the command line end with.
 OPTIONS = re.compile(
-    r"; --[a-z-]+( HIP:FOOT| J,J,\.\.\.)? (says otherwise|names (others|all legs|one))"
+    r"; --[a-z-]+( HIP:FOOT| J,J,\.\.\.)? (says otherwise|names (another|others|all legs|one))"
 )
 NAMING = re.compile(r" with --leg HIP:FOOT| \(--height\)")
 
@@ -76,11 +77,14 @@ class GivenRigs:
         judge_upload(data, title)
         read_skeleton(GltfDocument.from_bytes(data, title))
         digest = hashlib.sha256(data).hexdigest()
-        file = self._folder / f"{digest}{Path(title).suffix}"
+        file = self._folder / digest / title
         with self._lock:
             rig = UPLOAD + digest
-            if rig not in self._uploads:
+            if rig in self._uploads:
+                self._uploads[rig].file.rename(file)
+            else:
                 self._make_room()
+                file.parent.mkdir()
                 file.write_bytes(data)
             self._note(rig, Upload(file, title, True))
         return rig
@@ -93,7 +97,7 @@ class GivenRigs:
         return rig
 
     def use(self, rigs: Collection[str]) -> None:
-        """Say which rigs may be asked for again, by the document or by undo: they stay."""
+        """Say which rigs the document has: they stay."""
         with self._lock:
             self._in_use = frozenset(rigs)
 
@@ -154,7 +158,7 @@ class GivenRigs:
         """Return a sentence that was meant for the command line as one for the page."""
         if rig not in BUILT_IN:
             upload = self._upload(rig)
-            why = why.replace(str(upload.file), upload.name).replace(upload.file.name, upload.name)
+            why = why.replace(str(upload.file), upload.name)
         return NAMING.sub("", OPTIONS.sub("", why))[:LONGEST_WORD]
 
     def _found(self, rig: str, morphology: Morphology, skeleton: Skeleton) -> dict[str, Any]:
@@ -215,7 +219,7 @@ class GivenRigs:
         free = [rig for rig in own if rig not in self._in_use]
         if not free:
             raise SettingError(f"{MOST_UPLOADS} rigs are in use; the studio takes no more")
-        self._uploads.pop(free[0]).file.unlink(missing_ok=True)
+        shutil.rmtree(self._uploads.pop(free[0]).file.parent, ignore_errors=True)
 
 
 def judge_asked(asked: Mapping[str, Any]) -> None:
@@ -265,8 +269,10 @@ def list_joints(skeleton: Skeleton) -> list[dict[str, Any]]:
 
 
 def clean_name(name: str, suffix: str) -> str:
-    """Return the last part of a file's name without letters that a folder may not take."""
+    """Return the last part of a file's name with nothing in it that a folder may not take."""
     last = re.split(r"[\\/]", name)[-1]
     stem = last[: -len(Path(last).suffix)] if Path(last).suffix else last
-    kept = "".join(c for c in stem if c.isprintable() and c not in '"<>:|?*').strip(". ")
-    return f"{kept[: LONGEST_NAME - 5] or 'rig'}{suffix}"
+    kept = "".join(c for c in stem if c.isalnum() or c in " ._-").strip(". ")[: LONGEST_NAME - 5]
+    # Some systems keep these names for devices.
+    device = re.fullmatch(r"(con|prn|aux|nul|(com|lpt)[0-9])(\..*)?", kept, re.IGNORECASE)
+    return f"{'rig' if not kept or device else kept}{suffix}"

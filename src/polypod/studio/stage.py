@@ -9,12 +9,14 @@ import numpy as np
 
 from polypod.command import FARTHEST
 from polypod.errors import PolypodError, SettingError
-from polypod.gait.validation import GaitCheck, check_gait
+from polypod.gait.follow import PINNED, next_rung
+from polypod.gait.library import make_gait
 from polypod.herd import Herd
 from polypod.morphology.load import load_rig
 from polypod.morphology.types import Morphology
 from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
+from polypod.studio.judge import Question
 from polypod.studio.places import Ground, change_of, make_place, obstacle_poses
 from polypod.studio.wandering import Wanderers, stand_beside
 from polypod.world import World
@@ -86,17 +88,21 @@ class Stage:
         """Return [O, 7] quaternions and positions of the document's obstacles, world, m."""
         return obstacle_poses(self.world.environment, len(self.document["obstacle"]))
 
-    def verdict(self) -> GaitCheck:
-        """Return what to think of the gait that is walked, at the speed asked for."""
+    def question(self) -> Question:
+        """Return what is to be judged: the gait that is walked, at the speed asked for."""
         herd = self.herd
         gait = gait_of(self.document, herd.morphology)
         speed = float(herd.command.arrays.speed[0])
         if gait is None:
-            from polypod.gait.library import make_gait
-
             legs = herd.tables.legs
-            gait = make_gait(herd.gait_name[0], legs.side, legs.row)
-        return check_gait(gait, herd.morphology, speed=speed)
+            gait = make_gait(herd.gait_name[0] or self._gait_at(speed), legs.side, legs.row)
+        return Question(gait, herd.morphology, speed)
+
+    def _gait_at(self, speed: float) -> str:
+        """Return what a creature will walk in that let go of its gait since the last step."""
+        tables = self.herd.tables
+        length = tables.hip_height if tables.upright else tables.leg_length
+        return self.herd.ladder[next_rung(PINNED, speed, length, tables.ladder.limit)]
 
     def _rig(self, asked: Mapping[str, Any]) -> Morphology:
         """Return a creature, read once for all that is said of it."""

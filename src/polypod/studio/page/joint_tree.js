@@ -60,7 +60,8 @@ export class JointTree {
       const mark = marks.get(node);
       const badge = item.lastChild;
       badge.textContent = mark?.words ?? "";
-      badge.style.color = mark?.colour ?? "";
+      // As a dot: feet's colours are too dark to read words in.
+      badge.style.setProperty("--mark", mark?.colour ?? "transparent");
       item.setAttribute("aria-disabled", String(dim(node)));
     }
   }

@@ -58,7 +58,7 @@ class RigPanel {
       makeSection("Joints", this.picture.element, this.pointed, this.tree.element),
       makeSection("Spine", this.legs.back),
       makeSection("What was guessed", this.guesses),
-      makeSection("Limits of the spine", this.limits),
+      makeSection("Limits", this.limits),
     );
   }
 
@@ -95,7 +95,9 @@ class RigPanel {
   }
 
   takeUpload(answer) {
-    document.querySelector("#tab-rig")?.click();
+    // The creature that walks is not what is looked at now, even if it has not been before.
+    this.followed = JSON.stringify(this.store.document.creature);
+    document.querySelector("#tab-rig").click();
     this.asking += 1; // what is still being judged is of another rig
     this.draft = new RigDraft(answer.rig);
     this.take(answer);
