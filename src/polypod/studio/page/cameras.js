@@ -81,7 +81,7 @@ export class Cameras {
     const further = Math.tan(THREE.MathUtils.degToRad(WIDE) / 2)
       / Math.tan(THREE.MathUtils.degToRad(this.camera.fov) / 2);
     this.controls.minDistance = 0.4 * this.size * further;
-    this.controls.maxDistance = 120 * this.size * further;
+    this.controls.maxDistance = 60 * this.size * further;
   }
 
   // Show the whole creature, from where the view is; at once or with a short glide.
@@ -124,7 +124,7 @@ export class Cameras {
     if (this.eased) this.glide();
     controls.update();
     const distance = camera.position.distanceTo(controls.target);
-    camera.near = Math.max(0.02 * distance, distance - 40 * this.size);
+    camera.near = 0.02 * distance;
     camera.far = distance + 400 * this.size + 20 * distance;
     camera.updateProjectionMatrix();
     this.direction.subVectors(camera.position, controls.target).normalize();

@@ -8,6 +8,8 @@ import { Relief } from "/page/relief.js";
 // The ground is a little darker than in print: the page is dark, and what is drawn on it is bright.
 const TONE = 0xa9afb5;
 
+const BEYOND = 40; // times as far as it is sent
+
 const DECLARE = "varying vec3 groundPlace;\n#include <common>";
 const LINES = `#include <color_fragment>
   {
@@ -30,6 +32,7 @@ export class Ground {
     this.number = null; // N of what is shown
     this.wanted = null;
     this.mesh = null;
+    this.edge = Infinity; // m to where it ends
     this.relief = new Relief();
     this.grid = { value: 1 }; // m between strong lines; ten weak ones between two
     store.on("kinds", ({ ground }) => this.fetch(ground));
@@ -41,7 +44,7 @@ export class Ground {
     this.store.fetch(`/ground/${number}`)
       .then((answer) => answer.arrayBuffer())
       .then((bytes) => {
-        if (this.wanted === number) this.show(number, decodeArrays(bytes).arrays);
+        if (this.wanted === number) this.show(number, decodeArrays(bytes));
       })
       .catch((problem) => {
         // A newer ground may have taken its place meanwhile.
@@ -49,8 +52,11 @@ export class Ground {
       });
   }
 
-  show(number, { place, normal, colour, triangles }) {
+  show(number, { arrays, centre, reach, endless }) {
     this.number = number;
+    this.edge = endless ? Infinity : reach;
+    const { place, normal, colour, triangles } = arrays;
+    if (endless) widen(place.data, centre);
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(place.data, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(normal.data, 3));
@@ -84,5 +90,13 @@ export class Ground {
   // A grid that suits what is looked at: for a fly in centimetres, for a walker in metres.
   suit(size) {
     this.grid.value = 10 ** Math.round(Math.log10(size));
+  }
+}
+
+// Level ground goes on: its four corners, which come first, are moved far out.
+function widen(places, centre) {
+  for (let i = 0; i < 12; i += 3) {
+    places[i] = centre[0] + BEYOND * (places[i] - centre[0]);
+    places[i + 2] = centre[2] + BEYOND * (places[i + 2] - centre[2]);
   }
 }

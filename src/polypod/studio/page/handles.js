@@ -157,7 +157,10 @@ export class Handles {
         if (rays.pixelsFrom(place, event) < least) return { part: "corner", corner: i };
       }
     }
-    return this.canTurn && this.onRing(event, reach) ? { part: "ring" } : null;
+    // Where the ring passes before it or behind it, the obstacle itself is meant.
+    this.rays.aim(event);
+    if (!this.canTurn || this.rays.obstacle()?.index === this.index) return null;
+    return this.onRing(event, reach) ? { part: "ring", height: this.ringHeight } : null;
   }
 
   // How large it looks: between two opposite corners of its upper side.

@@ -23,6 +23,7 @@ export class ObstacleEdit {
   plane(grip, corners, camera) {
     const through = this.centre.clone();
     if (grip.part === "corner") through.fromArray(corners, 3 * grip.corner);
+    if (grip.part === "ring") through.y = grip.height;
     if (grip.part !== "height") return new THREE.Plane().setFromNormalAndCoplanarPoint(UP, through);
     // Upright, and facing the viewer.
     const normal = camera.position.clone().sub(through).setY(0).normalize();

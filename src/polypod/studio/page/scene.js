@@ -130,8 +130,9 @@ class Scene {
     cameras.update(herd.poses, herd.bodyAt(row), elapsed);
     const seen = cameras.apparent();
     this.shown.copy(cameras.controls.target);
-    sky.follow(this.shown, Math.min(Math.max(1.2 * seen, 2.5 * cameras.size), 24 * cameras.size),
-      cameras.camera.position.distanceTo(cameras.controls.target));
+    const lit = Math.min(Math.max(1.2 * seen, 2.5 * cameras.size), 24 * cameras.size);
+    const distance = cameras.camera.position.distanceTo(cameras.controls.target);
+    sky.follow(this.shown, lit, distance, this.ground.edge);
   }
 
   // For the panels and the keyboard.

@@ -21,10 +21,13 @@ export class Sky {
     this.centre = new THREE.Vector3();
   }
 
-  // Light what is within `reach` metres of `centre`; fog begins well beyond the view's distance.
-  follow(centre, reach, distance) {
-    this.scene.fog.near = 10 * distance + 8 * reach;
-    this.scene.fog.far = 4 * this.scene.fog.near;
+  // Light what is within `reach` metres of `centre`; fog begins well beyond the view's distance,
+  // and hides where the ground ends, `edge` metres away.
+  follow(centre, reach, distance, edge) {
+    const { fog } = this.scene;
+    const clear = 10 * distance + 8 * reach;
+    fog.near = Math.min(clear, distance + 0.3 * edge);
+    fog.far = Math.min(4 * clear, distance + 0.9 * edge);
     const { sun } = this;
     const camera = sun.shadow.camera;
     // Zooming does not change the shadow's grain all the time, only by steps.

@@ -69,7 +69,7 @@ export class Tools {
 
   down(event) {
     if (!event.isPrimary) {
-      this.press = null; // two fingers: the cameras'
+      this.cancel(); // two fingers: the cameras'
       return;
     }
     if (event.button !== 0 || !this.store.creature || !this.store.document) return;
