@@ -39,7 +39,7 @@ COMMAND = {
 }
 SETTINGS = ("spine", "spine_yaw", "spine_flexion", "gaze", "tail", "bounce", "nod", "sway")
 LARGEST_SCALE = 3.0
-OPTIONAL_INSIDE = ("obstacle", "terrain")
+OPTIONAL = ("obstacle", "terrain")
 MOST_OBSTACLES, MOST_WAYPOINTS, MOST_CREATURES, MOST_FEET = 500, 256, 200, 256
 WIDEST_SPACING = 10.0  # m
 Document = dict[str, Any]
@@ -92,7 +92,7 @@ def edited(document: Document, at: Sequence[str | int], to: Any) -> Document:
         inner.append(to)
     elif isinstance(inner, list) and to is None:
         del inner[_step_into(inner, last, at)]
-    elif isinstance(inner, dict) and isinstance(last, str) and at[0] in OPTIONAL_INSIDE:
+    elif len(at) > 1 and isinstance(inner, dict) and isinstance(last, str) and at[0] in OPTIONAL:
         # Keys that a scene file may leave out; which there are is judged below.
         inner[last] = to
         if to is None:
