@@ -36,11 +36,18 @@ CROWDS: dict[str, list[dict[str, Any]]] = {
     "herd": [{"rig": "spider", "count": 99}],
     "mixed": [{"rig": "spider", "count": 39}, *({"rig": rig, "count": 40} for rig in KINDS)],
 }
-FLAGS = [
-    "--no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --ignore-gpu-blocklist "
-    "--disable-quic --no-first-run --disable-background-networking --disable-component-update "
-    "--disable-sync"
-).split() + ["--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost"]
+FLAGS = (
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost",
+)
 SCREEN = {"width": 1280, "height": 720}
 PATIENCE = 240.0  # s: a cold start compiles
 SETTLE = 3.0  # s after a crowd has come, before anything is measured
@@ -71,9 +78,19 @@ WATCH = """() => {
     requestAnimationFrame(look);
   });
 }"""
+HEAD = """\
+                real   frames a second  bytes of  delay, ms: median, 95 %        cores busy
+crowd     n     time   made   recv  drawn   each  move       order      drawn     server page"""
 COUNT = """() => {
   const { link, scene, frame } = window.polypod;
   return [performance.now() / 1000, frame.number, link.frames, scene.drawn, link.received];
+}"""
+
+
+SHARES = """() => {
+  window.unheard?.();
+  window.shares = [];
+  window.unheard = window.polypod.on("clock", ({ behind }) => window.shares.push(behind));
 }"""
 
 
@@ -108,7 +125,7 @@ def served() -> Iterator[tuple[str, int]]:
 def opened(address: str, chromium: str) -> Iterator[Page]:
     """Open the page in a fresh Chromium."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
         try:
             page = browser.new_page(viewport=SCREEN)
             page.goto(address)
@@ -135,8 +152,7 @@ def measure(page: Page, crowd: str, seconds: float, drags: int, server: int) -> 
     )
     wait(page, f"window.polypod.frame.herds.length === {1 + len(kinds)}")
     time.sleep(SETTLE)
-    page.evaluate("() => { window.shares = []; window.unheard?.(); "
-                  "window.unheard = polypod.on('clock', ({ behind }) => shares.push(behind)); }")  # fmt: skip
+    page.evaluate(SHARES)
     before, work, began = np.array(page.evaluate(COUNT)), worked(server), time.perf_counter()
     time.sleep(seconds)
     after, spent = np.array(page.evaluate(COUNT)), time.perf_counter() - began
@@ -240,12 +256,7 @@ def main() -> None:
     given = parser.parse_args()
     with served() as (address, server), opened(address, given.chromium) as page:
         print(f"{os.cpu_count()} cores; load before {os.getloadavg()[0]:.1f}")
-        print(
-            "                real   frames a second     bytes  delay, ms: median, 95 %       cores busy"
-        )
-        print(
-            "crowd     n     time   made   recv  drawn a frame   move       order      drawn     server  page  load"
-        )
+        print(HEAD)
         for crowd in given.crowds:
             show(crowd, measure(page, crowd, given.seconds, given.drags, server))
 
