@@ -79,14 +79,12 @@ WATCH = """() => {
   });
 }"""
 HEAD = """\
-                real   frames a second  bytes of  delay, ms: median, 95 %        cores busy
-crowd     n     time   made   recv  drawn   each  move       order      drawn     server page"""
+            of real frames      a second   bytes      move,     order,     drawn,   cores busy
+crowd     n    time   made   recv  drawn of each  ms   95 %  ms   95 %  ms   95 %  server page  load"""
 COUNT = """() => {
   const { link, scene, frame } = window.polypod;
   return [performance.now() / 1000, frame.number, link.frames, scene.drawn, link.received];
 }"""
-
-
 SHARES = """() => {
   window.unheard?.();
   window.shares = [];
