@@ -80,7 +80,8 @@ WATCH = """() => {
 }"""
 HEAD = """\
             of real frames      a second   bytes      move,     order,     drawn,   cores busy
-crowd     n    time   made   recv  drawn of each  ms   95 %  ms   95 %  ms   95 %  server page  load"""
+crowd     n    time   made   recv  drawn of each  ms   95 %  ms   95 %  ms   95 %  server page  load
+"""
 COUNT = """() => {
   const { link, scene, frame } = window.polypod;
   return [performance.now() / 1000, frame.number, link.frames, scene.drawn, link.received];
@@ -254,7 +255,7 @@ def main() -> None:
     given = parser.parse_args()
     with served() as (address, server), opened(address, given.chromium) as page:
         print(f"{os.cpu_count()} cores; load before {os.getloadavg()[0]:.1f}")
-        print(HEAD)
+        print(HEAD, end="")
         for crowd in given.crowds:
             show(crowd, measure(page, crowd, given.seconds, given.drags, server))
 
