@@ -5,12 +5,13 @@
 Serves a studio on a free port, opens it and has walk: one spider, 100 spiders, and 200 creatures of
 mixed kinds. One row a crowd: share of real time that the simulation keeps; frames made by it,
 received by the page and drawn, a second (the server sends what the page receives: at most three
-are under way); bytes per creature and frame; and how long it takes from a move of the mouse, with
-the handle of the body height's slider held, to the arrival of the first frame that was computed
-with it, median and 95th percentile. `move` counts from the browser's stamp on the mouse's event,
-`order` from when the page got round to it and sent: what lies between is the page at work on its
-picture. `drawn` is from the move to the first picture of that frame. Beside it the cores that the
-server and Chromium kept busy, and the machine's load: it is all for nothing where others work.
+are under way); bytes per creature and frame, with the overlays that a new page shows; and how long
+it takes from a move of the mouse, with the handle of the body height's slider held, to the arrival
+of the first frame that was computed with it, median and 95th percentile. `move` counts from the
+browser's stamp on the mouse's event, `order` from when the page got round to it and sent: what lies
+between is the page at work on its picture. `drawn` is from the move to the first picture of that
+frame. Beside it the cores that the server and Chromium kept busy, and the machine's load: figures
+from a machine on which others work tell little.
 """
 
 from __future__ import annotations
