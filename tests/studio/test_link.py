@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from starlette.websockets import WebSocketDisconnect
 
@@ -119,6 +119,8 @@ def test_what_cannot_be_understood_is_refused_with_a_word(studio: Served, text: 
     assert studio.runner.orders == [{"do": "undo"}]
 
 
+# No deadline: a busy machine is no fault of the studio.
+@settings(deadline=None)
 @given(st.text() | st.binary())
 def test_any_message_is_refused_or_an_order(content: str | bytes) -> None:
     from studio.server import served

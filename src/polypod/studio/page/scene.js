@@ -18,6 +18,7 @@ import { Tools } from "/page/tools.js";
 const MOST_PIXELS = 2; // of the picture for one of the page's: more is work that nobody sees
 const SLOW = 24; // pictures a second
 const JUDGED_EVERY = 3; // s
+const HELD = 0.5; // of the fineness, while something is dragged and pictures come slowly
 const PRINT = 2; // pixels of a picture that is kept, for one of the view's
 const AHEAD = 1.5; // radii of the creature: nearer than that, a new thing would be under it
 
@@ -47,7 +48,14 @@ class Scene {
     this.lastDrawn = this.judged = performance.now();
     this.judgedDrawn = 0;
     this.shown = new THREE.Vector3(); // the middle of what the sun lights
+    this.rate = 0; // pictures a second
+    this.holding = false; // whether something is held and pictures come slowly
+    this.held = false; // whether they are coarse for it
     new ResizeObserver(() => this.resize()).observe(element);
+    window.addEventListener("pointerdown", () => this.hold(this.rate < SLOW), true);
+    for (const kind of ["pointerup", "pointercancel", "blur"]) {
+      window.addEventListener(kind, () => this.hold(false), true);
+    }
     this.resize();
     this.renderer.setAnimationLoop((now) => this.draw(now));
   }
@@ -79,7 +87,7 @@ class Scene {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(this.fineness);
+    this.renderer.setPixelRatio(this.pixels);
     this.renderer.setSize(width, height);
     // Lines are as wide on a fine screen as on a coarse one.
     resolution.value.set(width, height);
@@ -87,10 +95,26 @@ class Scene {
     this.cameras.camera.updateProjectionMatrix();
   }
 
+  // Of the picture, for one of the page's.
+  get pixels() {
+    return this.held ? HELD * this.fineness : this.fineness;
+  }
+
+  // The browser hands on the pointer's moves once a picture: while something is held, pictures that
+  // would come slowly are coarse, so that the creature follows the hand.
+  hold(held) {
+    this.holding = held;
+  }
+
   draw(now) {
     const elapsed = (now - this.lastDrawn) / 1000;
     this.lastDrawn = now;
     if (!this.playback.advance(now)) return;
+    if (this.held !== this.holding) {
+      // Here, since a canvas of another size is empty until it is drawn.
+      this.held = this.holding;
+      this.resize();
+    }
     this.creatures.update(this.playback);
     this.obstacles.update(this.playback);
     const focus = this.creatures.focus(this.playback.to);
@@ -109,6 +133,7 @@ class Scene {
     const seconds = (now - this.judged) / 1000;
     if (seconds < JUDGED_EVERY) return;
     const rate = (this.drawn - this.judgedDrawn) / seconds;
+    this.rate = rate;
     this.judged = now;
     this.judgedDrawn = this.drawn;
     // What was hidden or asleep in between tells nothing.
@@ -193,7 +218,7 @@ class Scene {
         blob ? resolve(blob) : reject(new Error("the browser made no picture of the view"))
       ), "image/png");
     });
-    this.renderer.setPixelRatio(this.fineness);
+    this.renderer.setPixelRatio(this.pixels);
     return coming;
   }
 }
