@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import pytest
+from hands import drag_by, in_use, name_of, turn_handle
 
 LEFT, RIGHT = 4, 5  # a pair of the spider's feet
 APART = 0.004  # of the cycle: nearer is the same
@@ -27,18 +27,6 @@ COLOURED = """
   });
 }
 """
-
-
-def name_of(tab: Any, foot: int) -> str:
-    return str(tab.ask(f"polypod.creature.feet[{foot}].name"))
-
-
-def in_use(tab: Any, foot: int) -> tuple[float, float]:
-    """Return the start and extent that a foot goes by now."""
-    start, extent = tab.ask(
-        f"[polypod.frame.focus.feet[{foot}].start, polypod.frame.focus.feet[{foot}].extent]"
-    )
-    return start, extent
 
 
 def settle(tab: Any) -> None:
@@ -63,36 +51,6 @@ def asked(tab: Any, foot: int) -> tuple[float, float]:
 def apart(one: float, other: float) -> float:
     """Return how far apart two phases are on the circle."""
     return abs((one - other + 0.5) % 1.0 - 0.5)
-
-
-def turn_handle(tab: Any, foot: int, part: str, cycles: float, *, free: bool = True) -> None:
-    """Drag a handle of a wheel round its middle; `free`: with Alt, which lets go of snapping."""
-    name = name_of(tab, foot)
-    handle = tab.slider(f"{name} {part}")
-    handle.scroll_into_view_if_needed()
-    wheel = tab.page.get_by_role("group", name=f"{name} wheel", exact=True).bounding_box()
-    middle = (wheel["x"] + wheel["width"] / 2, wheel["y"] + wheel["height"] / 2)
-    if part == "whole swing":
-        # Its middle may be off the sector: halfway along the sector is on it.
-        start, extent = in_use(tab, foot)
-        angle = 2.0 * math.pi * (start + extent / 2.0)
-        x, y = (0.25 * wheel["width"] * math.sin(angle), -0.25 * wheel["width"] * math.cos(angle))
-    else:
-        box = handle.bounding_box()
-        x = box["x"] + box["width"] / 2 - middle[0]
-        y = box["y"] + box["height"] / 2 - middle[1]
-    mouse = tab.page.mouse
-    if free:
-        tab.page.keyboard.down("Alt")
-    mouse.move(middle[0] + x, middle[1] + y)
-    mouse.down()
-    for i in range(1, 9):
-        turn = 2.0 * math.pi * cycles * i / 8.0
-        cosine, sine = math.cos(turn), math.sin(turn)
-        mouse.move(middle[0] + x * cosine - y * sine, middle[1] + x * sine + y * cosine)
-    mouse.up()
-    if free:
-        tab.page.keyboard.up("Alt")
 
 
 def test_a_sectors_end_is_dragged_and_the_foot_walks_by_it(tab: Any) -> None:
@@ -212,22 +170,11 @@ def test_footfalls_are_drawn_in_every_foots_colour(tab: Any) -> None:
         assert min(tab.page.evaluate(COLOURED, canvas)) > 20, canvas
 
 
-def drag(tab: Any, element: Any, across: float, down: float) -> None:
-    element.scroll_into_view_if_needed()
-    box = element.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    tab.page.mouse.move(x, y)
-    tab.page.mouse.down()
-    for i in range(1, 9):
-        tab.page.mouse.move(x + across * i / 8, y + down * i / 8)
-    tab.page.mouse.up()
-
-
 def test_a_foot_is_dragged_and_its_partner_goes_along(tab: Any) -> None:
     tab.open_panel("Feet")
     place = tab.page.get_by_role("button", name=f"{name_of(tab, LEFT)} place:")
     before = place.bounding_box()
-    drag(tab, place, -18.0, -12.0)
+    drag_by(tab, place, -18.0, -12.0)
     tab.until(lambda: tab.document["spacing"], "feet are placed")
     tab.until(
         lambda: abs(place.bounding_box()["x"] - before["x"] + 18.0) < 1.0, "it is where it was put"

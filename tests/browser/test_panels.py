@@ -8,27 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hands import drag_slider
 
 PATH_TO_THE_RIGHT = [[-3.0, 0.0]]
-
-
-def drag_slider(tab: Any, name: str, share: float) -> None:
-    """Drag a slider's knob to a share of its length, in ten steps."""
-    slider = tab.slider(name)
-    slider.scroll_into_view_if_needed()
-    place = slider.bounding_box()
-    now = slider.evaluate("(it) => (it.value - it.min) / (it.max - it.min)")
-    knob = 16  # px, which the range leaves out at its ends
-    y = place["y"] + place["height"] / 2
-
-    def x(part: float) -> float:
-        return place["x"] + knob / 2 + part * (place["width"] - knob)
-
-    tab.page.mouse.move(x(now), y)
-    tab.page.mouse.down()
-    for i in range(1, 11):
-        tab.page.mouse.move(x(now + (share - now) * i / 10), y)
-    tab.page.mouse.up()
 
 
 def test_dragged_speed_is_walked_and_undone_in_one_step(tab: Any) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import io
 import tomllib
 from collections.abc import Callable
@@ -11,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hands import drop_file
 
 from polypod.rigs.gltf import GltfDocument
 
@@ -22,25 +22,13 @@ NAMELESS = """
     || one.labels?.length || one.textContent.trim() || one.title))
   .map((one) => one.outerHTML)
 """
-# A file dropped from the desktop, anywhere on the page.
-DROP = """
-{
-  const bytes = Uint8Array.from(atob("%s"), (letter) => letter.charCodeAt(0));
-  const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(new File([bytes], "Fox.glb"));
-  for (const name of ["dragover", "drop"]) {
-    const event = new DragEvent(name, { dataTransfer, bubbles: true, cancelable: true });
-    document.querySelector("#scene").dispatchEvent(event);
-  }
-}
-"""
 
 
 def test_own_rig_is_judged_sized_corrected_and_walks(
     tab: Any, shared_rig: Callable[[str], Path]
 ) -> None:
     fox = shared_rig("khronos_fox/Fox.glb")
-    tab.ask(DROP % base64.b64encode(fox.read_bytes()).decode())
+    drop_file(tab, "Fox.glb", fox.read_bytes())
     verdict = tab.page.locator(".verdict")
     tab.until(lambda: "4 legs, 79.0 m" in verdict.text_content(), "it is judged")
     tab.button("In centimetres? Make it 79.0 cm tall").click()

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hands import beside, centre, drag, pixels
 
 CRATE = {
     "name": "crate", "shape": "box", "size": [0.16, 0.08, 0.2], "position": [0.5, 0.04, 0.0],
@@ -48,32 +49,6 @@ def pause(tab: Any) -> None:
     tab.page.mouse.move(20, 300)
     drawn = tab.ask("polypod.scene.drawn")
     tab.until(lambda: tab.ask("polypod.scene.drawn") > drawn + 2, "it is drawn")
-
-
-def centre(tab: Any) -> np.ndarray:
-    """Return where the body of the creature in focus is, world, m."""
-    return np.array(tab.ask("Array.from(polypod.frame.herds[0].body.slice(4, 7))"))
-
-
-def beside(place: Any, left: float, up: float, ahead: float) -> np.ndarray:
-    """Return a place that lies so far from another one along x, y and z, m."""
-    return np.asarray(place) + np.array([left, up, ahead])
-
-
-def pixels(tab: Any, place: Any) -> tuple[float, float]:
-    x, y = tab.page.evaluate("(p) => polypod.scene.pixelsOf(p)", [float(v) for v in place])
-    return x, y
-
-
-def drag(tab: Any, begin: tuple[float, float], end: tuple[float, float]) -> None:
-    mouse = tab.page.mouse
-    mouse.move(*begin)
-    mouse.down()
-    for i in range(1, 7):
-        share = i / 6
-        mouse.move(begin[0] + share * (end[0] - begin[0]), begin[1] + share * (end[1] - begin[1]))
-        tab.page.wait_for_timeout(40)
-    mouse.up()
 
 
 def with_crate(tab: Any) -> dict[str, Any]:

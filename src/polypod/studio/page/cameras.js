@@ -5,6 +5,8 @@ import { THREE, OrbitControls } from "three";
 const KEPT = "polypod.camera";
 const WIDE = 38; // degrees across the height of the picture
 const NARROW = 7; // from far away, nearly parallel: what an animator expects of a side view
+const ROOM = 0.85; // of the half picture: what is to be seen is not at its very edge
+const FARTHER = 1.15; // steps in which the view goes back
 const EASE = 260; // ms to frame the creature
 const TURN_TIME = 0.35; // s in which side views follow a turn
 const RISE_TIME = 0.4; // s in which views follow the body up and down, so that they do not bob
@@ -90,14 +92,37 @@ export class Cameras {
     const half = THREE.MathUtils.degToRad(this.camera.fov) / 2;
     const narrower = Math.atan(Math.tan(half) * Math.min(this.camera.aspect, 1));
     const distance = (1.25 * this.size) / Math.sin(narrower);
+    this.ease(this.camera.position.clone().sub(this.controls.target).setLength(distance), glide);
+  }
+
+  // Go back until a place is in the picture, as well as the creature.
+  reveal(place) {
+    if (this.size === 0) return;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const seen = new THREE.PerspectiveCamera();
+    const at = new THREE.Vector3();
+    for (let distance = offset.length(); distance < this.controls.maxDistance; distance *= FARTHER) {
+      seen.copy(this.camera);
+      seen.position.copy(offset.setLength(distance)).add(this.centre);
+      seen.lookAt(this.centre);
+      seen.near = 0.02 * distance;
+      seen.updateProjectionMatrix();
+      seen.updateMatrixWorld();
+      at.copy(place).project(seen);
+      if (at.z < 1 && Math.max(Math.abs(at.x), Math.abs(at.y)) < ROOM) break;
+    }
+    this.ease(offset);
+  }
+
+  // Look at the creature from `to` off it.
+  ease(to, glide = true) {
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    const offset = this.camera.position.clone().sub(this.controls.target).setLength(distance);
     this.eased = {
       start: performance.now(),
       lasts: glide && !calm ? EASE : 0,
       target: this.controls.target.clone().sub(this.centre),
       eye: this.camera.position.clone().sub(this.centre),
-      to: offset,
+      to,
     };
   }
 

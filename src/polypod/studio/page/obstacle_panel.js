@@ -48,7 +48,9 @@ export class ObstaclePanel {
     await this.store.edit(["obstacle", number], {
       name: this.freeName(shape), shape, size, position, yaw: 0,
     });
-    if (this.store.document.obstacle.length > number) this.choose(number);
+    if (this.store.document.obstacle.length <= number) return;
+    this.choose(number);
+    this.scene.reveal(position);
   }
 
   freeName(shape) {

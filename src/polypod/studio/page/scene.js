@@ -179,6 +179,14 @@ class Scene {
     this.cameras.frame();
   }
 
+  // Have a place of the world in the picture, [x, y, z]; where it is already, nothing moves.
+  reveal(place) {
+    const [x, y] = this.pixelsOf(place);
+    const { left, right, top, bottom } = this.canvas.getBoundingClientRect();
+    if (x > left && x < right && y > top && y < bottom) return;
+    this.cameras.reveal(new THREE.Vector3(...place));
+  }
+
   // Choose an obstacle by its number, or null.
   select(index) {
     this.handles.select(index);
