@@ -29,6 +29,8 @@ export class PlanOverlays {
   }
 
   take({ name, arrays }) {
+    // The plan is of the walk that goes on, and the tape is another place and time.
+    if (this.store.tape.scrub !== null) return this.clear(name);
     switch (name) {
       case "cells": return this.takeCells(arrays);
       case "candidates": return this.takeCandidates(arrays);

@@ -69,7 +69,6 @@ function drawLines(context, scale, box, lane, { feet, samples }) {
   const lines = lane.lines(feet);
   const [least, most] = spanOf(lane, lines, samples.map(({ sample }) => sample));
   const rise = (value) => box.top + box.height * (1 - (value - least) / (most - least));
-  if (box.height >= FULL_LABEL) drawSpan(context, scale, box, lane, least, most);
   if (lane.level && samples.length) {
     const { sample } = samples.at(-1);
     context.fillStyle = palette().quiet;
@@ -87,13 +86,18 @@ function drawLines(context, scale, box, lane, { feet, samples }) {
     context.stroke();
   }
   context.globalAlpha = 1;
+  if (box.height >= FULL_LABEL) drawSpan(context, box, lane, least, most);
 }
 
-// The lane's least and greatest value, at its left edge.
-function drawSpan(context, scale, box, lane, least, most) {
-  context.fillStyle = palette().quiet;
-  context.fillText(most.toFixed(lane.digits), GUTTER + 3, box.top + 8);
-  context.fillText(least.toFixed(lane.digits), GUTTER + 3, box.top + box.height);
+// The lane's least and greatest value, at its left edge, over whatever passes there.
+function drawSpan(context, box, lane, least, most) {
+  for (const [value, bottom] of [[most, box.top + 8], [least, box.top + box.height]]) {
+    const words = value.toFixed(lane.digits);
+    context.fillStyle = palette().panel;
+    context.fillRect(GUTTER + 1, bottom - 9, context.measureText(words).width + 4, 11);
+    context.fillStyle = palette().quiet;
+    context.fillText(words, GUTTER + 3, bottom);
+  }
 }
 
 function drawStances(context, scale, box, { feet, samples }) {
