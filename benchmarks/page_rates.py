@@ -1,6 +1,6 @@
 """How fast the studio is, driven as a person drives it, in headless Chromium.
 
-    python benchmarks/studio.py --crowds one mixed --drags 30
+    python benchmarks/page_rates.py --crowds one mixed --drags 30
 
 Serves a studio on a free port, opens it and has walk: one spider, 100 spiders, and 200 creatures of
 mixed kinds. One row a crowd: share of real time that the simulation keeps; frames made by it,
