@@ -96,7 +96,7 @@ def assert_same(a: Walked, b: Walked, leg: float, tolerance: float = TOLERANCE) 
         assert gap <= tolerance, f"{name} differ by {gap:.3g} leg lengths"
 
 
-@pytest.fixture(scope="module", params=["spider", "wolf", "lizard", "centaur"])
+@pytest.fixture(scope="module", params=["spider", "wolf", "lizard", "centaur", "centipede"])
 def creature(request: pytest.FixtureRequest) -> Morphology:
     return load_rig(request.param)
 

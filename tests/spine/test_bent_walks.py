@@ -20,7 +20,7 @@ from polypod.report.arrays import rotate_all
 from polypod.report.backbone import backbone_figures, joint_angles
 from polypod.report.figures import measure
 
-SPINED = ("wolf", "lizard", "centaur")
+SPINED = ("wolf", "lizard", "centaur", "centipede")
 # By strangers, and how high they stand, m.
 SHARED = {
     "khronos_fox/Fox.glb": 0.6,
