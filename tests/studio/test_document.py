@@ -89,3 +89,11 @@ def test_lists_grow_at_their_end_and_lose_what_is_made_null() -> None:
 def test_what_cannot_be_is_refused_with_its_place(at: list[Any], to: Any, words: str) -> None:
     with pytest.raises(PolypodError, match=words):
         edited(default_document(), at, to)
+
+
+def test_ground_is_chosen_and_made_flat_again() -> None:
+    hills = edited(default_document(), ["terrain"], {"generator": "hills", "relief": 0.2})
+    higher = edited(hills, ["terrain", "relief"], 0.4)
+    assert higher["terrain"] == {"generator": "hills", "relief": 0.4}
+    assert edited(higher, ["terrain", "relief"], None)["terrain"] == {"generator": "hills"}
+    assert edited(higher, ["terrain"], None)["terrain"] is None
