@@ -119,15 +119,16 @@ def test_what_is_recorded_is_scrubbed_and_exported_as_it_was(runner: Runner) -> 
     assert give(runner, do="record", on=True) is None
     assert give(runner, do="clock", steps=30) is None
     assert give(runner, do="record", on=False) is None
-    walks = runner.call(lambda conductor: conductor.tape.walks()).result(PATIENCE)
-    assert len(walks) == 1
-    assert len(walks[0].time) == 31
-    assert walks[0].time[0] == 0.0
+    walk = runner.call(lambda conductor: conductor.tape.walk(0)).result(PATIENCE)
+    with pytest.raises(SettingError, match="no creature 1; 1 were recorded"):
+        runner.call(lambda conductor: conductor.tape.walk(1)).result(PATIENCE)
+    assert len(walk.time) == 31
+    assert walk.time[0] == 0.0
     # The GLB plays the same motion.
-    played = Playback(GltfDocument.from_bytes(glb_bytes(walks[0]), "walk.glb"))
-    worlds = played.world_matrices(walks[0].time)
-    node = int(walks[0].morphology.joint_node[0])
-    assert worlds[:, node, :3, 3] == pytest.approx(walks[0].joint_position[:, 0], abs=1e-5)
+    played = Playback(GltfDocument.from_bytes(glb_bytes(walk), "walk.glb"))
+    worlds = played.world_matrices(walk.time)
+    node = int(walk.morphology.joint_node[0])
+    assert worlds[:, node, :3, 3] == pytest.approx(walk.joint_position[:, 0], abs=1e-5)
 
     frames: list[bytes] = []
     stop = runner.listen(lambda e: frames.append(e.content) if e.kind == "frame" else None)

@@ -7,7 +7,7 @@ import pytest
 
 from polypod.errors import PolypodError, SettingError
 from polypod.studio.document import Document, default_document, edited
-from polypod.studio.stage import Stage, judge_push
+from polypod.studio.stage import Stage
 
 DT = 1.0 / 60.0
 CRATE = {"shape": "box", "size": [0.6, 0.08, 0.4], "position": [0.0, 0.04, 1.0]}
@@ -156,14 +156,13 @@ def test_on_another_ground_it_goes_on_from_where_it_is() -> None:
 
 def test_pushes_are_judged() -> None:
     stage = stage_of()
-    herd, row, velocity, at = judge_push(
-        stage, {"creature": 0, "velocity": [1.0, 0.0, 0.0], "at": 0.0}
-    )
-    herd.push(velocity, row, at=at)
+    stage.push(0, [1.0, 0.0, 0.0], 0.0)
     walk(stage, 0.3)
     assert stage.herd.state.position[0, 0] > 0.02
     with pytest.raises(SettingError, match="no creature 4"):
-        judge_push(stage, {"creature": 4, "velocity": [1.0, 0.0, 0.0], "at": 0.0})
+        stage.push(4, [1.0, 0.0, 0.0], 0.0)
+    with pytest.raises(SettingError, match="a push's velocity"):
+        stage.push(0, [1e6, 0.0, 0.0], 0.0)
 
 
 def test_who_lets_go_of_a_gait_is_judged_by_the_one_that_its_speed_asks_for() -> None:

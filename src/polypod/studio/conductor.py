@@ -23,13 +23,12 @@ from polypod.studio.messages import (
     welcome_message,
 )
 from polypod.studio.overlays import Overlays
-from polypod.studio.stage import Stage, judge_push
-from polypod.studio.tape import Tape
+from polypod.studio.stage import STEP, Stage
+from polypod.studio.tape import NOTHING, Tape
 
 OVERLAY_EVERY = 0.2  # s
 # The ground is sent anew when the first creature has gone so much of what was sent.
 GONE = 0.4
-KEPT_SKINS = 12
 
 
 class Conductor:
@@ -94,7 +93,7 @@ class Conductor:
         self._send_frame(dt)
         self._send_overlays()
 
-    def rest(self, now: float) -> None:
+    def rest(self) -> None:
         """Do what is to be done while time stands still."""
         self._tell_verdict()
         self._send_overlays()
@@ -249,13 +248,11 @@ class Conductor:
         self.rate = float(order.get("rate", self.rate))
         if not self.playing:
             for _ in range(order.get("steps", 0)):
-                self.step(1.0 / 60.0)
+                self.step(STEP)
         self.tell_clock()
 
     def _do_push(self, order: dict[str, Any]) -> None:
-        asked = {"creature": 0, "at": 0.0, **order}
-        herd, row, velocity, at = judge_push(self.stage, asked)
-        herd.push(velocity, row, at=at)
+        self.stage.push(order.get("creature", 0), order["velocity"], float(order.get("at", 0.0)))
 
     def _do_restart(self, order: dict[str, Any]) -> None:
         self.stage.restart()
@@ -268,9 +265,9 @@ class Conductor:
             self.tape = Tape(self.stage.world, self.stage.herds)
             self._send_frame()
             self.tape.add(self.newest)
-        elif self.tape is not None:
-            self.tape.recording = False
-        self.say(tape_message(self))
+            self.say(tape_message(self))
+        else:
+            self._stop_tape()
 
     def _stop_tape(self) -> None:
         if self.tape is not None:
@@ -286,7 +283,7 @@ class Conductor:
                 self.say(tape_message(self))
             return
         if self.tape is None:
-            raise SettingError("nothing is recorded; press record and let it walk for a while")
+            raise SettingError(NOTHING)
         self.number += 1
         content = self.tape.shown(index, self.number)
         self._stop_tape()
@@ -296,11 +293,5 @@ class Conductor:
         self.say(tape_message(self))
 
     def _do_watch(self, order: dict[str, Any]) -> None:
-        row = order["creature"]
-        for kind, herd in enumerate(self.stage.herds):
-            if row < herd.count:
-                self.focus = Focus(kind, row)
-                self._meter.forget()
-                return
-            row -= herd.count
-        raise SettingError(f"there is no creature {order['creature']}")
+        self.focus = Focus(*self.stage.find(order["creature"]))
+        self._meter.forget()

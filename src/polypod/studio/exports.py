@@ -15,6 +15,7 @@ from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.scenes import creature_toml, scene_toml
+from polypod.studio.tape import NOTHING
 
 
 class Export(NamedTuple):
@@ -27,11 +28,8 @@ class Export(NamedTuple):
 
 def _walk(conductor: Conductor, creature: int) -> Recording:
     if conductor.tape is None:
-        raise SettingError("nothing is recorded; press record and let it walk for a while")
-    walks = conductor.tape.walks()
-    if creature >= len(walks):
-        raise SettingError(f"there is no creature {creature}; {len(walks)} were recorded")
-    return walks[creature]
+        raise SettingError(NOTHING)
+    return conductor.tape.walk(creature)
 
 
 def _document(conductor: Conductor, creature: int) -> Document:

@@ -8,6 +8,7 @@ from polypod import __version__
 from polypod.environment.generators import GENERATORS, generator_keys
 from polypod.gait.validation import GaitCheck
 from polypod.morphology.builtin import NAMES as BUILT_IN
+from polypod.studio.stage import RATE
 
 if TYPE_CHECKING:
     from polypod.studio.conductor import Conductor
@@ -23,7 +24,7 @@ def welcome_message(conductor: Conductor) -> Message:
         "rigs": list(BUILT_IN),
         "generators": {name: generator_keys(name) for name in GENERATORS},
         "given": list(conductor.stage.given),
-        "fps": 60,
+        "fps": RATE,
     }
 
 

@@ -19,6 +19,7 @@ from polypod.environment.grown import (
     KIND_INSIDE,
 )
 from polypod.environment.maps import LocalMap, fill_maps, make_local_map
+from polypod.environment.table import surface
 from polypod.footprints.scratch import TALLY_CANDIDATES, TALLY_DIRECT
 from polypod.herd import Herd
 from polypod.reference import by_reference
@@ -182,8 +183,6 @@ def hull(stage: Stage, herd: Herd, c: int) -> dict[str, NDArray[Any]]:
 
 def surface_heights(stage: Stage, x: FloatArray, z: FloatArray) -> FloatArray:
     """Return how high [N] the ground or what stands on it is at places x [N] and z [N], m."""
-    from polypod.environment.table import surface
-
     environment = stage.world.kernel_environment
     return np.array(
         [surface(environment, float(a), float(b))[0] for a, b in zip(x, z, strict=True)]

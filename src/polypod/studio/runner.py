@@ -13,12 +13,10 @@ from typing import Any, NamedTuple, TypeVar
 from polypod.errors import PolypodError
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
-from polypod.studio.stage import FindRig, Stage
+from polypod.studio.stage import STEP, FindRig, Stage
 
 Result = TypeVar("Result")
 
-RATE = 60.0  # steps a second
-STEP = 1.0 / RATE
 # What it is behind by more than this is not made up for, s; and how often it says how it keeps up.
 MOST_BEHIND = 0.1
 TELL_EVERY = 0.25
@@ -166,7 +164,7 @@ class Runner:
             # Nobody looks: it costs nothing then, and goes on when somebody comes back.
             if not conductor.playing or not self._listeners:
                 due, began, walked = now, now, 0.0
-                conductor.rest(now)
+                conductor.rest()
                 self._sleep(IDLE)
                 continue
             if now - due > MOST_BEHIND:

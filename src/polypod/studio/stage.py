@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from polypod.command import FARTHEST
-from polypod.errors import PolypodError, SettingError
+from polypod.errors import SettingError
 from polypod.gait.follow import PINNED, next_rung
 from polypod.gait.library import make_gait
 from polypod.herd import Herd
@@ -23,6 +22,9 @@ from polypod.world import World
 
 # Where a rig's name leads: a built-in's name as it is, an upload's to its file; else SettingError.
 FindRig = Callable[[str], Any]
+
+RATE = 60  # steps a second
+STEP = 1.0 / RATE
 
 
 class Applied(NamedTuple):
@@ -67,7 +69,7 @@ class Stage:
             ground=document["terrain"] != before["terrain"],
         )
         if applied.creature or applied.ground:
-            self._build(document, None if applied.creature else self)
+            self._build(document, stays=not applied.creature)
         else:
             ask(self.herd, document, before)
             if document["obstacle"] != before["obstacle"]:
@@ -83,6 +85,28 @@ class Stage:
         """Walk on by `dt` seconds."""
         self.wanderers.lead(self.world.time)
         self.world.step(dt)
+
+    def find(self, creature: int) -> tuple[int, int]:
+        """Return the kind of a creature, counted through all herds, and its row of that herd.
+
+        Raises:
+            SettingError: there is no such creature.
+        """
+        row = creature
+        for kind, herd in enumerate(self.herds):
+            if 0 <= row < herd.count:
+                return kind, row
+            row -= herd.count
+        raise SettingError(f"there is no creature {creature}")
+
+    def push(self, creature: int, velocity: Sequence[float], at: float) -> None:
+        """Push a creature as `Herd.push` does; velocity in m/s, struck `at` m ahead of its centre.
+
+        Raises:
+            SettingError: no such creature, or no such push.
+        """
+        kind, row = self.find(creature)
+        self.herds[kind].push(velocity, row, at=at)
 
     def obstacle_poses(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """Return [O, 7] quaternions and positions of the document's obstacles, world, m."""
@@ -121,15 +145,15 @@ class Stage:
             self._rigs[key] = morphology
         return self._rigs[key]
 
-    def _build(self, document: Document, from_stage: Stage | None = None) -> None:
-        """Make the world anew; creatures go on from where those of a stage are, if one is given."""
+    def _build(self, document: Document, *, stays: bool = False) -> None:
+        """Make the world anew; a creature that `stays` goes on from where it is."""
         morphology = self._rig(document["creature"])
         gait_of(document, morphology)
         kinds = [(self._rig({"rig": kind["rig"]}), kind["count"]) for kind in document["crowd"]]
         world = World(make_place(document, self.given))
         at, heading = (0.0, 0.0), float(document["command"]["heading"])
-        if from_stage is not None:
-            state = from_stage.herd.state
+        if stays:
+            state = self.herd.state
             at = (float(state.position[0, 0]), float(state.position[0, 2]))
             heading = float(state.heading[0])
         settings = settings_of(document)
@@ -150,26 +174,3 @@ class Stage:
         change = change_of(before, document, self.world.environment, self.given)
         if change.environment is not None:
             self.world.change_place(change.environment, change.renumbered)
-
-
-def judge_push(stage: Stage, order: Mapping[str, Any]) -> tuple[Herd, int, list[float], float]:
-    """Return whom an order to push is for, its velocity, m/s, and how far ahead it strikes, m.
-
-    Raises:
-        SettingError: no such creature, or no such push.
-    """
-    row = order["creature"]
-    for herd in stage.herds:
-        if 0 <= row < herd.count:
-            velocity = [float(v) for v in order["velocity"]]
-            if max(abs(v) for v in velocity) > FARTHEST:
-                break
-            herd.judge_push(velocity, row, float(order["at"]))
-            return herd, row, velocity, float(order["at"])
-        row -= herd.count
-    raise SettingError(f"there is no creature {order['creature']} to push")
-
-
-def trouble(error: PolypodError) -> dict[str, Any]:
-    """Return the message that says what could not be done."""
-    return {"is": "trouble", "why": str(error)}

@@ -15,6 +15,7 @@ from polypod.world import World
 # All frames together, bytes, as they are sent; and joints times frames of the walks.
 MOST_BYTES = 400_000_000
 MOST_JOINT_FRAMES = 4_000_000
+NOTHING = "nothing is recorded; press record and let it walk for a while"
 # Where a frame's bytes say which frame of the tape it is, and its number.
 TAPE_AT, NUMBER_AT = 28, 4
 
@@ -69,13 +70,17 @@ class Tape:
         struct.pack_into("<I", content, NUMBER_AT, number)
         return bytes(content)
 
-    def walks(self) -> list[Recording]:
-        """Return a recording of each creature, the first frame at time 0.
+    def walk(self, creature: int) -> Recording:
+        """Return the recording of a creature, the first frame at time 0.
 
         Raises:
-            SettingError: nothing was recorded.
+            SettingError: nothing was recorded, or not that creature.
         """
         if len(self.frames) < 2:
-            raise SettingError("nothing is recorded; press record and let it walk for a while")
-        walks = [recorder.finish() for _, _, recorder in self._recorders]
-        return [replace(walk, time=walk.time - walk.time[0]) for walk in walks]
+            raise SettingError(NOTHING)
+        if creature >= len(self._recorders):
+            raise SettingError(
+                f"there is no creature {creature}; {len(self._recorders)} were recorded"
+            )
+        walk = self._recorders[creature][2].finish()
+        return replace(walk, time=walk.time - walk.time[0])
