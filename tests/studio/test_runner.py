@@ -104,8 +104,11 @@ def test_orders_are_answered_and_undone(runner: Runner) -> None:
 
 
 def test_a_gait_by_its_name_is_written_as_disks(runner: Runner) -> None:
-    assert give(runner, do="gait", name="tripod", cycles=2.0) is None
-    gait = runner.call(lambda conductor: conductor.stage.document["gait"]).result(PATIENCE)
+    assert give(runner, do="edit", at=["command", "blend_cycles"], to=2.0) is None
+    assert give(runner, do="gait", name="tripod") is None
+    document = runner.call(lambda conductor: conductor.stage.document).result(PATIENCE)
+    assert document["command"]["blend_cycles"] == 2.0
+    gait = document["gait"]
     assert gait["name"] == "tripod"
     assert len(gait["start"]) == 8
     refusal = give(runner, do="gait", name="moonwalk")

@@ -233,13 +233,9 @@ class Conductor:
         self.take(document, keep=False)
 
     def _do_gait(self, order: dict[str, Any]) -> None:
-        document = dict(self.stage.document)
-        if "cycles" in order:
-            document["command"] = {**document["command"], "blend_cycles": float(order["cycles"])}
-        legs = self.stage.herd.tables.legs
-        name = order["name"]
-        document["gait"] = None if name is None else disks_of(make_gait(name, legs.side, legs.row))
-        self.take(judged(document))
+        name, legs = order["name"], self.stage.herd.tables.legs
+        gait = None if name is None else disks_of(make_gait(name, legs.side, legs.row))
+        self.take(judged({**self.stage.document, "gait": gait}))
 
     def _do_clock(self, order: dict[str, Any]) -> None:
         if order.get("playing") and self.scrubbed is not None:

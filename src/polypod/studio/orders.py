@@ -66,7 +66,6 @@ ORDERS: dict[str, dict[str, Key]] = {
     "open": {"document": ("a document", lambda v: isinstance(v, dict), False)},
     "gait": {
         "name": ("a gait's name or null", lambda v: v is None or is_text(v), False),
-        "cycles": ("from 0.1 to 100 cycles", lambda v: is_number(v, 0.1, 100.0), True),
     },
     "clock": {
         "playing": ("true or false", lambda v: isinstance(v, bool), True),

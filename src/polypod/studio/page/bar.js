@@ -21,7 +21,7 @@ function order(store, what) {
 }
 
 function clockPart(store) {
-  const play = makeButton("", () => order(store, { do: "clock", playing: !store.clock.playing }), {
+  const play = makeButton("", () => order(store, { do: "clock", playing: !store.playing }), {
     class: "play", title: "Play or pause (Space)",
   });
   const step = makeButton("Step", () => order(store, { do: "clock", playing: false, steps: 1 }), {

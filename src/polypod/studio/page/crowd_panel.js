@@ -18,29 +18,29 @@ export class CrowdPanel {
 
   // How many more there may be.
   room() {
-    return MOST - 1 - this.store.document.crowd.reduce((sum, { count }) => sum + count, 0);
+    return MOST - 1 - this.store.wanted.crowd.reduce((sum, { count }) => sum + count, 0);
   }
 
   grow() {
-    const { crowd, creature } = this.store.document;
+    const { crowd, creature } = this.store.wanted;
     const kind = { rig: creature.rig, count: Math.min(10, this.room()) };
     this.store.edit(["crowd"], [...crowd, kind]);
   }
 
   change(i, keys) {
-    const { crowd } = this.store.document;
+    const { crowd } = this.store.wanted;
     return this.store.edit(["crowd"], crowd.with(i, { ...crowd[i], ...keys }));
   }
 
   // Kinds to choose from: built-in ones, and the rigs that are here already.
   kinds() {
-    const { creature, crowd } = this.store.document;
+    const { creature, crowd } = this.store.wanted;
     const own = [creature.rig, ...crowd.map(({ rig }) => rig)];
     return [...new Set([...this.store.welcome.rigs, ...own])].map((rig) => [rig, nameOfRig(rig)]);
   }
 
   refresh() {
-    const { crowd } = this.store.document;
+    const { crowd } = this.store.wanted;
     if (this.rows.length !== crowd.length) this.build(crowd.length);
     this.rows.forEach(({ choice, box }, i) => {
       fillChoice(choice, this.kinds(), crowd[i].rig);
@@ -65,11 +65,11 @@ export class CrowdPanel {
     });
     const box = new NumberBox({
       label: `How many of kind ${i + 1}`, decimals: 0, step: 1,
-      read: () => this.store.document.crowd[i]?.count ?? null,
+      read: () => this.store.wanted.crowd[i]?.count ?? null,
       write: (count) => this.change(i, { count: Math.round(count) }),
     });
     const remove = makeButton("✕", () => {
-      this.store.edit(["crowd"], this.store.document.crowd.toSpliced(i, 1));
+      this.store.edit(["crowd"], this.store.wanted.crowd.toSpliced(i, 1));
     }, { "aria-label": `Delete kind ${i + 1}` });
     return { choice, box, element: make("li", {}, choice, box.element, remove) };
   }

@@ -78,15 +78,15 @@ export function shiftedDisks(disks, k, part, delta, partner = -1) {
 // The disks to edit: those drawn by hand, or else those in use, for the duty of the library's gaits
 // follows the speed. Null while neither is known.
 export function disksOf(store) {
-  const asked = store.document?.gait;
+  const asked = store.wanted?.gait;
   if (isDrawn(store)) return { start: asked.start, extent: asked.extent };
   return disksInUse(store);
 }
 
 // Whether the gait asked for was drawn by hand.
 export function isDrawn(store) {
-  const asked = store.document?.gait;
-  return Boolean(asked && store.creature && !store.creature.gaits.includes(asked.name));
+  const asked = store.wanted?.gait;
+  return Boolean(asked?.start && store.creature && !store.creature.gaits.includes(asked.name));
 }
 
 export function disksInUse(store) {

@@ -44,12 +44,12 @@ export function mountGait(element, store) {
 function makePresets(store) {
   const choice = makeChoice("Gait", (value) => {
     const name = value === FOLLOWS ? null : value;
-    store.send({ do: "gait", name, cycles: store.document.command.blend_cycles })
+    store.send({ do: "gait", name })
       .catch((refusal) => { store.say(refusal.message); show(); });
   });
   const show = () => {
     const names = store.creature?.gaits ?? [];
-    const asked = store.document?.gait?.name ?? FOLLOWS;
+    const asked = store.wanted?.gait?.name ?? FOLLOWS;
     // What was drawn by hand is in the list while it is asked for.
     const own = asked === FOLLOWS || names.includes(asked) ? [] : [asked];
     const options = [...own, ...names].map((name) => [name, name]);

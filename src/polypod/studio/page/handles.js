@@ -55,7 +55,7 @@ export class Handles {
   }
 
   get obstacle() {
-    return this.store.document.obstacle[this.index];
+    return this.store.wanted.obstacle[this.index];
   }
 
   // Draw them where the obstacle is now.

@@ -20,7 +20,7 @@ function on(radius, heading) {
 export class HeadingPad {
   constructor(store) {
     this.store = store;
-    this.gesture = new Gesture(store, () => this.refresh());
+    this.gesture = new Gesture(store);
     this.build();
     this.listen();
   }
@@ -90,7 +90,7 @@ export class HeadingPad {
     this.knob.setAttribute("cy", y);
     this.pad.setAttribute("aria-valuenow", Math.round(heading / DEGREE));
     this.pad.setAttribute("aria-valuetext", spokenDirection(heading));
-    this.note.textContent = this.store.document.path.length
+    this.note.textContent = this.store.wanted.path.length
       ? "It follows its path. Turn it, and it leaves the path."
       : "Drag the pad, or use the arrow keys.";
     this.box.refresh();
@@ -102,7 +102,7 @@ export class HeadingPad {
     for (const [name, value] of [["x1", MIDDLE], ["y1", MIDDLE], ["x2", x], ["y2", y]]) {
       this.face.setAttribute(name, value.toFixed(1));
     }
-    if (this.store.document?.path.length) this.refresh();
+    if (this.store.wanted?.path.length) this.refresh();
   }
 }
 

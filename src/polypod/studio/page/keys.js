@@ -36,7 +36,7 @@ export function bindKeys(store, scene) {
   const order = (message) => store.send(message).catch((refusal) => store.say(refusal.message));
   const ready = (act) => () => { if (store.document && store.creature) act(); };
   const actions = {
-    " ": () => order({ do: "clock", playing: !store.clock.playing }),
+    " ": () => order({ do: "clock", playing: !store.playing }),
     ".": () => order({ do: "clock", playing: false, steps: 1 }),
     f: () => scene.frame(),
     r: () => toggleRecord(store),

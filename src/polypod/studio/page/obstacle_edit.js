@@ -11,7 +11,7 @@ export class ObstacleEdit {
   constructor(store, index, mesh, ground) {
     Object.assign(this, { store, index, ground });
     this.gesture = new Gesture(store);
-    this.before = structuredClone(store.document.obstacle[index]);
+    this.before = structuredClone(store.wanted.obstacle[index]);
     // What moves by itself is not where the document has it begin.
     this.centre = mesh.position.clone();
     this.rotation = mesh.quaternion.clone();

@@ -15,13 +15,13 @@ export class ObstacleForm {
   // `chosen` gives the obstacle's number, or -1.
   constructor(store, chosen) {
     Object.assign(this, { store, chosen });
-    this.gesture = new Gesture(store, () => this.refresh());
+    this.gesture = new Gesture(store);
     this.element = make("div", { class: "form", role: "group", "aria-label": "Obstacle" });
     this.boxes = [];
   }
 
   get obstacle() {
-    return this.store.document.obstacle[this.chosen()];
+    return this.store.wanted.obstacle[this.chosen()];
   }
 
   // Change keys of it; null takes a key away.

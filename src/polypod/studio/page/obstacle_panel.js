@@ -44,7 +44,7 @@ export class ObstaclePanel {
     const size = NEW[shape].map((share) => rounded(share * leg, leg));
     const up = this.scene.heightAt(x, z) + size[1] * (0.5 - SUNK[shape]);
     const position = [rounded(x, leg), up, rounded(z, leg)];
-    const number = this.store.document.obstacle.length;
+    const number = this.store.wanted.obstacle.length;
     await this.store.edit(["obstacle", number], {
       name: this.freeName(shape), shape, size, position, yaw: 0,
     });
@@ -54,7 +54,7 @@ export class ObstaclePanel {
   }
 
   freeName(shape) {
-    const taken = new Set(this.store.document.obstacle.map((obstacle) => obstacle.name));
+    const taken = new Set(this.store.wanted.obstacle.map((obstacle) => obstacle.name));
     let number = 1;
     while (taken.has(`${shape}-${number}`)) number += 1;
     return `${shape}-${number}`;
@@ -62,8 +62,8 @@ export class ObstaclePanel {
 
   // A copy beside it, as far off as it is wide.
   async copy(index) {
-    const made = structuredClone(this.store.document.obstacle[index]);
-    const number = this.store.document.obstacle.length;
+    const made = structuredClone(this.store.wanted.obstacle[index]);
+    const number = this.store.wanted.obstacle.length;
     made.position[0] += 1.2 * (made.size?.[0] ?? this.store.creature.leg_length);
     made.name = this.freeName(made.shape);
     await this.store.edit(["obstacle", number], made);
@@ -71,13 +71,13 @@ export class ObstaclePanel {
   }
 
   async remove(index) {
-    const there = this.store.document.obstacle.length;
+    const there = this.store.wanted.obstacle.length;
     await this.store.edit(["obstacle", index], null);
     if (this.store.document.obstacle.length < there) this.choose(-1);
   }
 
   refresh() {
-    const obstacles = this.store.document.obstacle;
+    const obstacles = this.store.wanted.obstacle;
     if (this.chosen >= obstacles.length) this.chosen = -1;
     this.clear.disabled = obstacles.length === 0;
     this.fill(obstacles);

@@ -21,7 +21,7 @@ export function mountRecord(element, store, scene) {
 
 // Start or stop the record; also bound to a key.
 export function toggleRecord(store) {
-  return store.send({ do: "record", on: !store.tape.recording }).catch((refusal) => store.say(refusal.message));
+  return store.send({ do: "record", on: !store.recording }).catch((refusal) => store.say(refusal.message));
 }
 
 function recording(store) {
@@ -96,6 +96,7 @@ function link(store) {
   const box = make("input", { type: "text", readonly: true, "aria-label": "Link", hidden: true, class: "wide-box" });
   box.addEventListener("focus", () => box.select());
   const button = makeButton("Copy a link to all this", async () => {
+    await store.orders.settled();
     opener.show(store.document);
     box.value = linkFor(store.document);
     box.hidden = false;

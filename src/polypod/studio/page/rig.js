@@ -230,7 +230,7 @@ class RigPanel {
   // What was asked of another's feet, in another's size, means nothing to this one; where it walks,
   // and in what world, stays. All that is one step of undo.
   async letWalk() {
-    const wanted = structuredClone(this.store.document);
+    const wanted = structuredClone(this.store.wanted);
     Object.assign(wanted, { creature: this.creatureOfDraft(), gait: null, spacing: [] });
     for (const key of OWN) wanted.command[key] = null;
     try {

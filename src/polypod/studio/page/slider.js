@@ -117,17 +117,16 @@ export class Slider {
 
 // A slider of a place in the document.
 export function documentSlider(store, { label, at, range, automatic, unset }) {
-  const gesture = new Gesture(store, () => slider.refresh());
-  const slider = new Slider({
+  const gesture = new Gesture(store);
+  return new Slider({
     label,
     range,
     automatic,
     unset,
-    read: () => at.reduce((part, key) => part?.[key], store.document) ?? null,
+    read: () => at.reduce((part, key) => part?.[key], store.wanted) ?? null,
     write: (value, fresh) => {
       if (fresh) gesture.begin();
-      gesture.edit(at, value);
+      return gesture.edit(at, value);
     },
   });
-  return slider;
 }

@@ -5,7 +5,7 @@ import { partnerOf } from "/page/disks.js";
 
 // A foot's shift from its rest place as the document has it.
 export function shiftOf(store, k) {
-  return store.document?.spacing?.[k] ?? [0, 0];
+  return store.wanted?.spacing?.[k] ?? [0, 0];
 }
 
 // [left, forward] of the place a foot prefers at standstill, m: rest, stance width and shift.
@@ -18,7 +18,7 @@ export function placeOf(store, k) {
 // The same without the shift, where a reset puts it.
 export function restOf(store, k) {
   const [left, forward] = store.creature.feet[k].rest;
-  return [left * (store.document?.command.stance_width ?? 1), forward];
+  return [left * (store.wanted?.command.stance_width ?? 1), forward];
 }
 
 // Turns places of the world into [left, forward] of the creature in focus, m.

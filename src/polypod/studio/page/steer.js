@@ -5,30 +5,28 @@ import { wrapped } from "/page/units.js";
 // The direction asked for (rad about +Y from +Z toward +X), where nothing leads along a path; else
 // the one in which the creature walks.
 export function headingOf(store) {
-  if (store.document.path.length && store.frame) return wrapped(store.frame.focus.heading);
-  return wrapped(store.document.command.heading);
+  const { path, command } = store.wanted;
+  return wrapped(path.length && store.frame ? store.frame.focus.heading : command.heading);
 }
 
 // Walk in a direction. A path leads elsewhere, so it goes.
 export function headFor(store, gesture, heading) {
-  const at = ["command", "heading"];
-  gesture.edit(at, wrapped(heading));
-  if (store.document.path.length) gesture.edit(["path"], []);
+  gesture.edit(["command", "heading"], wrapped(heading));
+  if (store.wanted.path.length) gesture.edit(["path"], []);
 }
 
 // Turn on from what was last asked for by an angle, rad.
 export function turnBy(store, gesture, angle) {
   gesture.continue();
-  headFor(store, gesture, (gesture.pending(["command", "heading"]) ?? headingOf(store)) + angle);
+  headFor(store, gesture, headingOf(store) + angle);
 }
 
 // Walk faster or slower by a share of the range of speeds.
 export function speedBy(store, gesture, share) {
   const { least, most, default: usual } = store.creature.ranges.speed;
-  const at = ["command", "speed"];
   gesture.continue();
-  const speed = gesture.pending(at) ?? store.document.command.speed ?? usual;
-  gesture.edit(at, Math.min(most, Math.max(least, speed + share * (most - least))));
+  const speed = store.wanted.command.speed ?? usual;
+  gesture.edit(["command", "speed"], Math.min(most, Math.max(least, speed + share * (most - least))));
 }
 
 // "30° to the left", as one would say a direction.

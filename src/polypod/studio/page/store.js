@@ -1,6 +1,8 @@
 // What the page knows: the last word of the server on everything, and who wants to hear of it.
 // Nothing here is changed by the page itself: it sends orders, and the server's answer changes it.
 
+import { Orders } from "/page/orders.js";
+
 export class Store {
   constructor() {
     this.document = null; // see docs/studio-protocol.md
@@ -17,6 +19,7 @@ export class Store {
     this.frame = null; // as frames.js decodes it
     this.before = null; // the frame before it
     this.link = null; // see link.js
+    this.orders = new Orders((order) => this.link.send(order), () => this.document);
     this.listeners = new Map();
   }
 
@@ -32,17 +35,33 @@ export class Store {
     for (const listener of this.listeners.get(kind) ?? []) listener(value);
   }
 
-  // Send an order; resolves when it is done, rejects with the server's word when it is refused.
-  send(order) {
-    return this.link.send(order);
+  // The document as it will be when all that is on its way is done: what a change is made out of,
+  // and what controls show. Not to be changed.
+  get wanted() {
+    return this.orders.wanted;
   }
 
-  // Change a place of the document. What is refused is said to the user; edits of one gesture (a
-  // drag) are one step of undo.
+  // Whether time goes on, and whether the walk is recorded, as was asked last.
+  get playing() {
+    return this.orders.toggled("playing", this.clock.playing);
+  }
+
+  get recording() {
+    return this.orders.toggled("on", this.tape.recording);
+  }
+
+  // Send an order; resolves when it is done, rejects with the server's word when it is refused.
+  send(order) {
+    return this.orders.send(order);
+  }
+
+  // Change a place of the document. What is refused is said to the user, and controls go back to
+  // what holds; edits of one gesture (a drag) are one step of undo.
   edit(at, to, gesture = undefined) {
-    const order = { do: "edit", at, to };
-    if (gesture !== undefined) order.gesture = gesture;
-    return this.send(order).catch((refusal) => this.say(refusal.message));
+    return this.orders.edit(at, to, gesture).catch((refusal) => {
+      this.say(refusal.message);
+      if (this.document) this.tell("document", { document: this.document });
+    });
   }
 
   // Say something to the user, in the line at the bottom.
@@ -54,8 +73,10 @@ export class Store {
     return document.querySelector("meta[name=polypod-token]").content;
   }
 
-  // Fetch a route with the token; throws the server's own word where it says no.
+  // Fetch a route with the token, after all that was asked for before; throws the server's own word
+  // where it says no.
   async fetch(route, options = {}) {
+    await this.orders.settled();
     const headers = { ...(options.headers ?? {}), "X-Polypod-Token": this.token };
     const answer = await fetch(route, { ...options, headers });
     if (answer.ok) return answer;

@@ -21,7 +21,8 @@ export class TerrainPanel {
     this.store = store;
     this.generator = FLAT; // what the boxes show, applied or not
     this.values = {};
-    this.taken = null; // the document's terrain that they were taken from
+    this.taken = null; // the document's terrain that they were taken from, or were sent as
+    this.seen = null; // the document's terrain, as it was last
     this.choice = makeChoice("Ground", (name) => this.choose(name));
     this.keys = make("div", { class: "keys" });
     this.apply = makeButton("Make this ground", () => this.send(), { class: "main" });
@@ -37,8 +38,10 @@ export class TerrainPanel {
     const scenes = given.map((name) => [GIVEN + name, `of ${name}`]);
     fillChoice(this.choice, [...names, ...scenes], this.generator);
     const terrain = JSON.stringify(this.store.document.terrain);
-    // What was typed and not yet applied stays, until the ground itself is another.
-    if (terrain !== this.taken) {
+    // What was typed and not yet applied stays, until the ground itself is another than was sent.
+    const another = terrain !== this.seen && terrain !== this.taken;
+    this.seen = terrain;
+    if (another) {
       this.taken = terrain;
       this.show(this.store.document.terrain);
     }
@@ -104,6 +107,7 @@ export class TerrainPanel {
   }
 
   send() {
+    this.taken = JSON.stringify(this.wanted());
     return this.store.edit(["terrain"], this.wanted());
   }
 

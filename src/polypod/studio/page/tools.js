@@ -153,7 +153,7 @@ export class Tools {
         return;
       }
       const place = [target.place.x, target.place.z].map((number) => Number(number.toFixed(4)));
-      store.edit(["path"], shift ? [...store.document.path, place] : [place]);
+      store.edit(["path"], shift ? [...store.wanted.path, place] : [place]);
     }
   }
 

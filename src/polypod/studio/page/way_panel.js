@@ -9,7 +9,7 @@ const SHOWN = 60; // points; a drawn path may have more, and nobody types those
 export class WayPanel {
   constructor(store, scene) {
     Object.assign(this, { store, scene });
-    this.gesture = new Gesture(store, () => this.refresh());
+    this.gesture = new Gesture(store);
     this.draw = makeButton("Draw in the scene", () => this.setDrawing(scene.mode !== "path"));
     this.clear = makeButton("Clear", () => store.edit(["path"], []));
     this.words = make("p", { class: "quiet" });
@@ -37,7 +37,7 @@ export class WayPanel {
 
   add() {
     const point = this.scene.placeAhead().map((number) => Number(number.toFixed(3)));
-    this.change([...this.store.document.path, point]);
+    this.change([...this.store.wanted.path, point]);
   }
 
   change(path) {
@@ -46,7 +46,7 @@ export class WayPanel {
   }
 
   refresh() {
-    const path = this.store.document.path;
+    const path = this.store.wanted.path;
     this.clear.disabled = path.length === 0;
     const more = path.length > SHOWN ? ` The first ${SHOWN} are listed.` : "";
     this.words.textContent = path.length
@@ -65,9 +65,9 @@ export class WayPanel {
   row(i) {
     const boxes = ["x", "z"].map((axis, a) => new NumberBox({
       label: `Point ${i + 1} ${axis}`, unit: "m", tag: axis, decimals: 2,
-      read: () => this.store.document.path[i]?.[a] ?? null,
+      read: () => this.store.wanted.path[i]?.[a] ?? null,
       write: (value) => {
-        const path = this.store.document.path;
+        const path = this.store.wanted.path;
         this.change(path.with(i, path[i].with(a, value)));
       },
     }));
@@ -75,7 +75,7 @@ export class WayPanel {
     return make(
       "li", {}, make("span", { class: "form-label" }, `${i + 1}`),
       ...boxes.map((box) => box.element),
-      makeButton("✕", () => this.change(this.store.document.path.toSpliced(i, 1)), {
+      makeButton("✕", () => this.change(this.store.wanted.path.toSpliced(i, 1)), {
         "aria-label": `Delete point ${i + 1}`,
       }),
     );
