@@ -204,7 +204,7 @@ def make_command(count: int, feet: int, waypoints: int) -> HerdCommand:
         **dict.fromkeys(("speed", "heading", "travel", "step_height", "body_height"), (c,)),
         **dict.fromkeys(("period", "blend_cycles", "waypoint_count", "gait_number"), (c,)),
         "gait_vault": (c,),
-        **dict.fromkeys(("duty", "follows"), (c,)),
+        **dict.fromkeys(("duty", "follows", "same_circle"), (c,)),
         "spacing": (c, k, 2),
         "reaching": (c, k),
         "reach_place": (c, k, 3),

@@ -164,10 +164,19 @@ class Command:
         if not isinstance(foot, int | np.integer) or not 0 <= foot < count:
             raise SettingError(f"foot is {foot!r}; it must be from 0 to {count - 1}")
 
-    def set_gait(self, gait: Gait, creature: int | slice = slice(None)) -> None:
+    def set_gait(
+        self, gait: Gait, creature: int | slice = slice(None), *, same_circle: bool = False
+    ) -> None:
         """Ask for a gait, whatever the speed; a walking creature changes to it by P1's rule.
 
         `follow_speed` lets go of it.
+
+        Args:
+            gait: to walk in.
+            creature: whose; all where none is said.
+            same_circle: it was drawn out of the gait before, so phases of both count from the same
+                moment: feet whose sector is as it was step as they did. Else the creature's circle
+                is turned to where the gaits are nearest.
 
         Raises:
             SettingError: the gait is for another number of feet.
@@ -184,16 +193,21 @@ class Command:
         self.arrays.gait_number[creature] += 1
         self.arrays.gait_duty[creature] = (gait.duty, gait.duty_low, gait.duty_high)
         self.arrays.follows[creature] = False
+        self.arrays.same_circle[creature] = same_circle
         self.gait_name[creature] = gait.name
         if not math.isnan(gait.period):
             self.arrays.period[creature] = gait.period
 
-    def follow_speed(self, creature: int | slice = slice(None)) -> None:
+    def follow_speed(
+        self, creature: int | slice = slice(None), *, same_circle: bool = False
+    ) -> None:
         """Let the gait follow the speed, as it does where none was asked for.
 
-        A period that a gait brought along stays until `period` is set.
+        A period that a gait brought along stays until `period` is set. `same_circle` as of
+        `set_gait`: the gait before was drawn out of the one that follows speed.
         """
         self.arrays.follows[creature] = True
+        self.arrays.same_circle[creature] = same_circle
         self.gait_name[creature] = ""
 
     def set_path(self, waypoints: Sequence[Sequence[float]], creature: int) -> None:

@@ -210,6 +210,7 @@ class HerdCommand(NamedTuple):
     gait_duty: FloatArray  # [C, 3] mean duty at which it was stated, lowest, highest
     gait_vault: FloatArray  # [C] Alexander's q of upright legs in that gait
     gait_number: IntArray  # [C] counts the changes of gait
+    same_circle: BoolArray  # [C] its phases count from the same moment as those of the gait before
     blend_cycles: FloatArray  # [C] cycles in which a transition takes place
     waypoints: FloatArray  # [C, W, 2] x, z
     waypoint_count: IntArray  # [C]

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from polypod.errors import PolypodError, SettingError
+from polypod.gait.library import make_gait
+from polypod.studio.asked import disks_of
 from polypod.studio.document import Document, default_document, edited
 from polypod.studio.stage import Stage
 
@@ -67,6 +69,37 @@ def test_a_foots_sector_drawn_anew_is_the_foots_duty_in_the_walk() -> None:
     change(stage, "gait", to=None)
     walk(stage, 3.0)
     assert stage.herd.gait_name == ("spider",)
+
+
+def needle_jump(stage: Stage) -> float:
+    """Take a step; return by how much more the needle went than by the tempo, cycles."""
+    before = float(stage.herd.state.needle[0])
+    stage.step(DT)
+    state = stage.herd.state
+    turned = float(state.needle[0]) - before - float(state.cycle_rate[0]) * DT
+    return abs((turned + 0.5) % 1.0 - 0.5)
+
+
+def test_a_sector_dragged_far_moves_nothing_else_on_the_wheels() -> None:
+    stage = stage_of()
+    walk(stage, 2.0)
+    state = stage.herd.state
+    start, extent = state.swing_start[0].copy(), state.swing_extent[0].copy()
+    for far in (0.2, 0.45, -0.3):
+        drawn = start.copy()
+        drawn[3] = (start[3] + far) % 1.0
+        gait = {"name": "edited", "start": drawn.tolist(), "extent": extent.tolist()}
+        change(stage, "gait", to=gait)
+        assert max(needle_jump(stage) for _ in range(180)) < 1e-9
+        others = [foot for foot in range(len(start)) if foot != 3]
+        assert state.swing_start[0, others] == pytest.approx(start[others], abs=2e-3)
+        assert state.swing_start[0, 3] == pytest.approx(drawn[3], abs=2e-3)
+    # Undone, it goes the same way back; and later gaits are brought near again.
+    change(stage, "gait", to=None)
+    assert max(needle_jump(stage) for _ in range(180)) < 1e-9
+    legs = stage.herd.tables.legs
+    change(stage, "gait", to=disks_of(make_gait("millipede", legs.side, legs.row)))
+    assert needle_jump(stage) > 1.0 / 64.0 - 1e-9
 
 
 def test_a_crate_is_stepped_on_moved_and_taken_away_under_its_feet() -> None:

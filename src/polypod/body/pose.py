@@ -14,7 +14,7 @@ from polypod.body.support import FeetPlane, body_rotation
 from polypod.compute import kernel
 from polypod.controller.rest import hip_offset, rest_ahead
 from polypod.controller.roll import rise_at_lift
-from polypod.controller.steering import PlanPose, predict
+from polypod.controller.steering import PlanPose, moved_to, predict
 from polypod.controller.stride import stance_centre
 from polypod.controller.swing import swing_time_left
 from polypod.environment.table import surface
@@ -119,10 +119,7 @@ def highest_soon(
         share = SOON * i / SOON_SAMPLES
         x = pose.x + (there.x - pose.x) * share
         z = pose.z + (there.z - pose.z) * share
-        later = PlanPose(
-            x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner, pose.detour,
-            pose.pace, pose.aside, pose.gone,
-        )  # fmt: skip
+        later = moved_to(pose, x, z)
         rise = rise_along(pose, x, z, plane) + heave_ahead(c, 0.5 * share, state)
         for k in range(state.swinging.shape[1]):
             until = wrap_phase(state.swing_start[c, k] - state.needle[c])

@@ -8,7 +8,14 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from polypod.body.push import Deflection, hold_back, load_deflection, recover, store_deflection
+from polypod.body.push import (
+    NO_DEFLECTION,
+    Deflection,
+    hold_back,
+    load_deflection,
+    recover,
+    store_deflection,
+)
 from polypod.compute import kernel
 from polypod.controller.turning import turn_rule
 from polypod.gait.tempo import GRAVITY
@@ -52,6 +59,24 @@ class PlanPose(NamedTuple):
     pace: float  # share of the speed asked for that others leave it
     aside: Deflection  # by what a push the body is off its path; x, z, heading include it
     gone: float  # m along its way since now, of a pose ahead
+
+
+@kernel
+def moved_to(pose: PlanPose, x: float, z: float) -> PlanPose:
+    """Return the same pose at another place."""
+    return PlanPose(
+        x, z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner, pose.detour,
+        pose.pace, pose.aside, pose.gone,
+    )  # fmt: skip
+
+
+@kernel
+def unpushed(pose: PlanPose) -> PlanPose:
+    """Return the pose as if no push had led the body there."""
+    return PlanPose(
+        pose.x, pose.z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner,
+        pose.detour, pose.pace, NO_DEFLECTION, pose.gone,
+    )  # fmt: skip
 
 
 @kernel

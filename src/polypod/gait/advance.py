@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from polypod.body.push import NO_DEFLECTION, is_pushed
+from polypod.body.push import is_pushed
 from polypod.compute import kernel
-from polypod.controller.steering import CYCLE, PlanPose, plan_pose, predict
+from polypod.controller.steering import CYCLE, PlanPose, plan_pose, predict, unpushed
 from polypod.controller.stride import SINK_CYCLES
 from polypod.controller.swing import FASTEST_CATCH_UP
-from polypod.gait.follow import duty_change, note_gait_speed, take_gait, wished_rung
+from polypod.gait.follow import PINNED, duty_change, note_gait_speed, take_gait, wished_rung
 from polypod.gait.needle import minimum_feet_down, turn_needle
 from polypod.gait.stride import Stride, stride_at, wished_caution
 from polypod.gait.transition import adopt_disks, align_cycle, approach_disks
@@ -94,11 +94,7 @@ def quickest_period(
 
     Who is asked to walk quicker than that keeps its tempo.
     """
-    alone = PlanPose(
-        pose.x, pose.z, pose.heading, pose.turn_rate, pose.speed, pose.waypoint, pose.corner,
-        pose.detour, pose.pace, NO_DEFLECTION, pose.gone,
-    )  # fmt: skip
-    speed = fastest_foot_speed(c, alone, state, command, tables)
+    speed = fastest_foot_speed(c, unpushed(pose), state, command, tables)
     own = stride_at(c, speed, state, command, tables, settings)
     quickest = FASTEST_CATCH_UP * QUICKEST_STEP * tables.pendulum_time / (1.0 - duty)
     return min(quickest, own.period)
@@ -110,19 +106,22 @@ def begin_transition(
 ) -> None:
     """Begin to change to the gait that was taken: its circle is turned to where it is nearest.
 
-    Of a creature that `stood` all feet change at once, if its gait follows its speed: it begins
-    its next walk with the slowest.
+    Not where the user drew one gait out of the other: all other feet would be turned about with
+    what was drawn. Of a creature that `stood` all feet change at once, if its gait follows its
+    speed: it begins its next walk with the slowest.
     """
+    pinned = rung == PINNED or state.rung[c] == PINNED
     state.gait_number[c] = command.gait_number[c]
     state.rung[c] = rung
     at_once = stood and command.follows[c]
     state.blend_left[c] = 0.0 if at_once else command.blend_cycles[c]
     state.duty[c] = duty
     destination_disks(c, state, duty, scratch.start, scratch.extent)
-    state.needle[c] = align_cycle(
-        state.needle[c], state.swing_start[c], state.goal_start[c], state.lift_phase[c],
-        scratch.start, scratch.extent,
-    )  # fmt: skip
+    if not (pinned and command.same_circle[c]):
+        state.needle[c] = align_cycle(
+            state.needle[c], state.swing_start[c], state.goal_start[c], state.lift_phase[c],
+            scratch.start, scratch.extent,
+        )  # fmt: skip
 
 
 @kernel

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -68,11 +68,12 @@ class Build:
     foot_name: tuple[str, ...]
 
     @classmethod
-    def of(cls, morphology: Morphology) -> Build:
-        """Return the build of a creature."""
-        from polypod.tables import make_tables
+    def of(cls, morphology: Morphology, tables: Any = None) -> Build:
+        """Return the build of a creature, whose `tables` are made where there are none yet."""
+        if tables is None:
+            from polypod.tables import make_tables
 
-        tables = make_tables(morphology)
+            tables = make_tables(morphology)
         legs = tables.legs
         return cls(
             name=morphology.name,

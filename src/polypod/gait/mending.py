@@ -12,7 +12,7 @@ as much as twice the period.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
@@ -39,6 +39,7 @@ STEPS_AN_OCTAVE = 8
 OCTAVES = 4
 # Steps of the duties tried together with periods.
 COARSE_DUTY = 0.05
+GoOn = Callable[[], object]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,30 +69,33 @@ class _Turned(NamedTuple):
     name: str | None = None
 
 
-def nearest_change(asked: Gait, demand: Demand) -> Change | None:
+def nearest_change(asked: Gait, demand: Demand, go_on: GoOn = lambda: None) -> Change | None:
     """Return the smallest change found that makes a gait plausible, None where none was found.
 
     Args:
         asked: the gait as given, with its range of duties.
         demand: what it asks of the creature.
+        go_on: called before each change that is tried; what it raises gives the search up.
     """
-    found = _first(asked, demand, [*_duties(), *_periods(demand), *_shifts(asked, (), SHIFT_STEP)])
+    one = [*_duties(), *_periods(demand), *_shifts(asked, (), SHIFT_STEP)]
+    found = _first(asked, demand, one, go_on)
     if found is not None:
         return found
     both = [
-        _several_shifts(asked, demand),
-        _first(asked, demand, _duties_and_periods(demand)),
+        _several_shifts(asked, demand, go_on),
+        _first(asked, demand, _duties_and_periods(demand), go_on),
     ]
     smallest = min(both, key=lambda change: change.size if change is not None else math.inf)
     if smallest is not None:
         return smallest
-    found = _first(asked, demand, _speeds(demand))
-    return found or _first(asked, demand, [_Turned(name=name) for name in names()])
+    found = _first(asked, demand, _speeds(demand), go_on)
+    return found or _first(asked, demand, [_Turned(name=name) for name in names()], go_on)
 
 
-def _first(asked: Gait, demand: Demand, tried: Iterable[_Turned]) -> Change | None:
+def _first(asked: Gait, demand: Demand, tried: Iterable[_Turned], go_on: GoOn) -> Change | None:
     """Return the smallest change that passes."""
     for turned in sorted(tried, key=lambda turned: _size(turned, demand)):
+        go_on()
         made = _demand_of(turned, asked, demand)
         if made is None:
             continue
@@ -103,15 +107,19 @@ def _first(asked: Gait, demand: Demand, tried: Iterable[_Turned]) -> Change | No
     return None
 
 
-def _several_shifts(asked: Gait, demand: Demand) -> Change | None:
+def _several_shifts(asked: Gait, demand: Demand, go_on: GoOn) -> Change | None:
     """Return a few feet's shifts that pass together, each the best after those before."""
     before: tuple[tuple[int, float], ...] = ()
     for _ in range(MOST_SHIFTED - 1):
         tried = list(_shifts(asked, before, COARSE_SHIFT))
         if not tried:
             return None
-        before = min(tried, key=lambda turned: _excess(turned, asked, demand)).shifts
-        found = _first(asked, demand, _shifts(asked, before, COARSE_SHIFT))
+        excess = []
+        for turned in tried:
+            go_on()
+            excess.append(_excess(turned, asked, demand))
+        before = tried[excess.index(min(excess))].shifts
+        found = _first(asked, demand, _shifts(asked, before, COARSE_SHIFT), go_on)
         if found is not None:
             return found
     return None

@@ -8,7 +8,8 @@ those of the closed-form orbit (`orbit.py`), and what is too large is what no an
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -117,10 +118,21 @@ def check_gait(
         build = Build.plain(gait.foot_count, gait.family != "arthropod")
     else:
         build = creature if isinstance(creature, Build) else Build.of(creature)
+    return mended(judge_gait(gait, build, speed=speed, weight=weight), gait, build)
+
+
+def judge_gait(
+    gait: Gait, build: Build, *, speed: float | None = None, weight: ArrayLike | None = None
+) -> GaitCheck:
+    """Judge a gait as `check_gait` does, at once: without the search for what would mend it.
+
+    Raises:
+        GaitError: the gait is for other feet.
+        SettingError: a number that cannot be used.
+    """
     pace = build.comfortable_speed if speed is None else float(speed)
     demand = Demand.of(gait, build, pace, normal_weight(weight, gait.foot_count))
     verdict, reasons = _verdict(demand)
-    change = None if verdict == PLAUSIBLE else nearest_change(gait, demand)
     orbit, arcs, margins = demand.orbit, demand.arcs, demand.margins
     needed = feet_needed(demand.gait)
     stands = arcs.feet_down > 0
@@ -148,8 +160,25 @@ def check_gait(
         unsupported=demand.unsupported,
         verdict=verdict,
         reasons=reasons,
-        change=change,
+        change=None,
     )
+
+
+def mended(
+    check: GaitCheck, gait: Gait, creature: Build, go_on: Callable[[], object] = lambda: None
+) -> GaitCheck:
+    """Return what `judge_gait` found, with the nearest change that makes the gait plausible.
+
+    Args:
+        check: what it found.
+        gait: the gait as it was given to it.
+        creature: for which it was judged.
+        go_on: called again and again; what it raises gives the search up, which may take seconds.
+    """
+    if check.verdict == PLAUSIBLE:
+        return check
+    demand = Demand.of(gait, creature, check.speed, check.orbit.weight)
+    return replace(check, change=nearest_change(gait, demand, go_on))
 
 
 def _verdict(demand: Demand) -> tuple[str, tuple[str, ...]]:

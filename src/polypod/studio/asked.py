@@ -61,6 +61,11 @@ def gait_of(document: Document, morphology: Morphology) -> Gait | None:
     return Gait(asked["name"], np.mod(start, 1.0), extent)
 
 
+def is_drawn(document: Document) -> bool:
+    """Return whether a document's gait is none of the library's."""
+    return document["gait"] is not None and document["gait"]["name"] not in names()
+
+
 def disks_of(gait: Gait) -> dict[str, Any]:
     """Return a gait as a document holds it."""
     return {
@@ -104,7 +109,12 @@ def ask(herd: Herd, document: Document, before: Document | None) -> None:
             setattr(herd.command, key, command[key])
     herd.command.spacing = spacing
     if before is None or document["gait"] != before["gait"]:
-        herd.command.follow_speed() if gait is None else herd.command.set_gait(gait)
+        # Disks that are drawn are drawn out of those in use.
+        drawn = before is not None and (is_drawn(document) or is_drawn(before))
+        if gait is None:
+            herd.command.follow_speed(same_circle=drawn)
+        else:
+            herd.command.set_gait(gait, same_circle=drawn)
     # After the gait, which may bring a period of its own.
     herd.command.period = document["command"]["period"]
     herd.command.duty = document["command"]["duty"]

@@ -55,7 +55,8 @@ class Conductor:
         self._tell, self._event = tell, event
         self.newest = b""  # the frame sent last
         self._judge = Judge()
-        self._check = stage.question().answer()
+        self._verdict = stage.question().answer()
+        self._judge.ask(stage.question())
         self._renew_skins()
         self._renew_ground()
 
@@ -69,7 +70,7 @@ class Conductor:
             kinds_message(self),
             document_message(self),
             clock_message(self),
-            verdict_message(self._check),
+            verdict_message(self._verdict),
             tape_message(self),
         ]
 
@@ -99,10 +100,10 @@ class Conductor:
         self._send_overlays()
 
     def _tell_verdict(self) -> None:
-        check = self._judge.take()
-        if check is not None:
-            self._check = check
-            self.say(verdict_message(check))
+        verdict = self._judge.take()
+        if verdict is not None:
+            self._verdict = verdict
+            self.say(verdict_message(verdict))
 
     def _send_frame(self, dt: float | None = None) -> None:
         stage = self.stage

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from polypod import __version__
 from polypod.environment.generators import GENERATORS, generator_keys
-from polypod.gait.validation import GaitCheck
 from polypod.morphology.builtin import NAMES as BUILT_IN
+from polypod.studio.judge import Verdict
 from polypod.studio.stage import RATE
 
 if TYPE_CHECKING:
@@ -64,8 +64,9 @@ def clock_message(conductor: Conductor) -> Message:
     }
 
 
-def verdict_message(check: GaitCheck) -> Message:
+def verdict_message(verdict: Verdict) -> Message:
     """Say what to think of the gait (P2 4)."""
+    check = verdict.check
     return {
         "is": "verdict",
         "verdict": check.verdict,
@@ -75,6 +76,7 @@ def verdict_message(check: GaitCheck) -> Message:
         "foot_peak": [float(v) for v in check.foot_peak],
         "flight": float(check.flight),
         "speed": float(check.speed),
+        "searching": verdict.searching,
     }
 
 

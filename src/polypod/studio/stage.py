@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from polypod.errors import SettingError
+from polypod.gait.build import Build
 from polypod.gait.follow import PINNED, next_rung
 from polypod.gait.library import make_gait
 from polypod.herd import Herd
@@ -120,7 +121,7 @@ class Stage:
         if gait is None:
             legs = herd.tables.legs
             gait = make_gait(herd.gait_name[0] or self._gait_at(speed), legs.side, legs.row)
-        return Question(gait, herd.morphology, speed)
+        return Question(gait, Build.of(herd.morphology, herd.tables), speed)
 
     def _gait_at(self, speed: float) -> str:
         """Return what a creature will walk in that let go of its gait since the last step."""

@@ -1,7 +1,8 @@
 // The Feet panel: where feet prefer to stand, seen from above.
 
-import { addStyle, fillChoice, make, makeButton, makeChoice, makeSection } from "/page/elements.js";
+import { addStyle, make, makeButton, makeSection } from "/page/elements.js";
 import { Figure } from "/page/figure.js";
+import { FootChoice } from "/page/foot_choice.js";
 import { documentSlider } from "/page/slider.js";
 import { shiftOf } from "/page/spacing.js";
 import { SpacingEditor } from "/page/spacing_edit.js";
@@ -46,49 +47,22 @@ function makeWidth(store) {
 }
 
 // The chosen foot's shift in numbers.
-class FootPlace {
+class FootPlace extends FootChoice {
   constructor(store, editor, mark) {
-    this.store = store;
+    super(store, mark);
     this.editor = editor;
-    this.mark = mark;
-    this.foot = 0;
-    this.choice = makeChoice("Foot", (k) => this.choose(Number(k)));
-    this.figures = ["Left of rest", "Ahead of rest"].map((label, axis) => new Figure({
+    this.show(["Left of rest", "Ahead of rest"].map((label, axis) => new Figure({
       label, unit: "m", decimals: 4, standard: () => 0,
       read: () => shiftOf(store, this.foot)[axis],
       write: (value) => this.put(axis, value),
-    }));
-    this.element = make("div", { class: "figures" }, this.choice, ...this.figures.map((figure) => figure.element));
-    store.on("creature", () => this.list());
-    store.on("document", () => this.refresh());
-    this.list();
+    })));
   }
 
   put(axis, value) {
-    const shift = [...shiftOf(this.store, this.foot)];
-    shift[axis] = value;
-    this.editor.put(this.foot, shift);
+    return this.editor.put(this.foot, shiftOf(this.store, this.foot).with(axis, value));
   }
 
   reset() {
     this.editor.put(this.foot, [0, 0]);
-  }
-
-  list() {
-    const feet = this.store.creature?.feet ?? [];
-    if (this.foot >= feet.length) this.foot = 0;
-    fillChoice(this.choice, feet.map(({ name }, k) => [String(k), name]), String(this.foot));
-    this.choose(this.foot);
-  }
-
-  choose(k) {
-    this.foot = k;
-    this.choice.value = String(k);
-    this.mark(k);
-    this.refresh();
-  }
-
-  refresh() {
-    for (const figure of this.figures) figure.refresh();
   }
 }

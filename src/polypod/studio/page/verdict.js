@@ -31,7 +31,8 @@ export class VerdictView {
     if (!verdict) return;
     this.write(this.word, `${SIGNS[verdict.verdict]} ${verdict.verdict}`);
     this.write(this.peak, `body ${verdict.body_peak.toFixed(2)} g at its peak`);
-    this.write(this.sentence, verdict.sentence);
+    const search = verdict.searching ? "; looking for what would mend it…" : "";
+    this.write(this.sentence, verdict.sentence + search);
     // The sentence has the first reason in it.
     this.reasons.replaceChildren(...verdict.reasons.slice(1).map((reason) => make("li", {}, reason)));
     const flight = verdict.flight > 0 ? `${verdict.flight.toFixed(2)} s without a foot down` : "always a foot down";

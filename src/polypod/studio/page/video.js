@@ -1,9 +1,11 @@
 // A video of the view, made by the browser as the view is drawn.
 
 import { saveAs } from "/page/elements.js";
+import { seekable } from "/page/webm.js";
 
 const RATE = 60; // frames a second at most; the browser takes those that are drawn
 const BITS = 12e6; // a second
+const WHOLE_EVERY = 1000; // ms between pictures that need no other: players seek to them
 const TYPES = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
 
 export class Video {
@@ -32,18 +34,21 @@ export class Video {
     const pieces = [];
     try {
       const stream = this.canvas.captureStream(RATE);
-      this.recorder = new MediaRecorder(stream, { mimeType: this.type, videoBitsPerSecond: BITS });
+      this.recorder = new MediaRecorder(stream, {
+        mimeType: this.type, videoBitsPerSecond: BITS, videoKeyFrameIntervalDuration: WHOLE_EVERY,
+      });
     } catch (error) {
       this.store.say(`This browser makes no video of the view: ${error.message}`);
       return;
     }
     this.recorder.ondataavailable = (event) => pieces.push(event.data);
-    this.recorder.onstop = () => {
+    this.recorder.onstop = async () => {
       for (const track of this.recorder.stream.getTracks()) track.stop();
       this.recorder = null;
-      const ending = this.type.startsWith("video/mp4") ? "mp4" : "webm";
-      saveAs(new Blob(pieces, { type: this.type }), `walk.${ending}`);
       this.changed();
+      const film = new Blob(pieces, { type: this.type });
+      if (this.type.startsWith("video/mp4")) saveAs(film, "walk.mp4");
+      else saveAs(await seekable(film), "walk.webm");
     };
     this.recorder.onerror = () => this.store.say("The browser gave the video up.");
     this.started = performance.now();

@@ -1,6 +1,7 @@
 // All wheels, laid out as the creature stands: left and right by side, fore above hind.
 
-import { disksInUse, disksOf, isDrawn, needleNow } from "/page/disks.js";
+import { Circle } from "/page/circle.js";
+import { disksInUse, disksOf, isDrawn, needleNow, wrap } from "/page/disks.js";
 import { make } from "/page/elements.js";
 import { shortNames } from "/page/foot_names.js";
 import { shown } from "/page/switches.js";
@@ -18,6 +19,7 @@ export class Wheels {
     this.chosen = chosen; // called with the foot whose wheel is touched
     this.wheels = [];
     this.element = make("div", { class: "wheels", role: "group", "aria-label": "Gait wheels" });
+    this.circle = new Circle(store);
     store.on("creature", () => this.build());
     store.on("document", () => this.showAsked());
     store.on("frame", () => this.showFrame());
@@ -25,7 +27,7 @@ export class Wheels {
     const turn = () => {
       requestAnimationFrame(turn);
       if (this.wheels.length === 0 || !shown(this.element)) return;
-      const needle = needleNow(store);
+      const needle = needleNow(store) + this.circle.turn();
       for (const wheel of this.wheels) wheel.showNeedle(needle);
     };
     turn();
@@ -67,15 +69,18 @@ export class Wheels {
   showAsked() {
     const disks = disksOf(this.store);
     if (!disks || disks.start.length !== this.wheels.length) return;
-    this.wheels.forEach((wheel, k) => wheel.showAsked(disks.start[k], disks.extent[k]));
+    // What was drawn by hand is where the hand put it.
+    const turn = isDrawn(this.store) ? 0 : this.circle.turn();
+    this.wheels.forEach((wheel, k) => wheel.showAsked(wrap(disks.start[k] + turn), disks.extent[k]));
   }
 
   showFrame() {
     const disks = disksInUse(this.store);
     if (!disks || disks.start.length !== this.wheels.length || !shown(this.element)) return;
     const { feet } = this.store.frame.focus;
+    const turn = this.circle.turn();
     this.wheels.forEach((wheel, k) => {
-      wheel.showDisk(disks.start[k], disks.extent[k]);
+      wheel.showDisk(disks.start[k] + turn, disks.extent[k]);
       wheel.showState(!feet[k].stance, feet[k].next);
     });
     if (!isDrawn(this.store)) this.showAsked();
