@@ -17,7 +17,8 @@ from polypod.rigs.gltf import GltfDocument
 from polypod.rigs.playback import Playback
 from polypod.studio.document import default_document
 from polypod.studio.orders import ORDERS, judge_order
-from polypod.studio.runner import Event, Runner
+from polypod.studio.outbox import Telling
+from polypod.studio.runner import Runner
 
 PATIENCE = 240.0  # s: a cold start compiles
 
@@ -49,7 +50,7 @@ def hear(runner: Runner, kind: str, count: int) -> list[Any]:
     heard: list[Any] = []
     enough = threading.Event()
 
-    def listen(event: Event) -> None:
+    def listen(event: Telling) -> None:
         if event.kind == kind and len(heard) < count:
             heard.append(event.content)
         if len(heard) >= count:
@@ -150,7 +151,7 @@ def test_overlays_come_while_they_are_watched(runner: Runner) -> None:
     names: set[str] = set()
     enough = threading.Event()
 
-    def listen(event: Event) -> None:
+    def listen(event: Telling) -> None:
         if event.kind == "arrays":
             names.add(event.name)
         if len(names) == 4:

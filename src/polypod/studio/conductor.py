@@ -22,6 +22,7 @@ from polypod.studio.messages import (
     verdict_message,
     welcome_message,
 )
+from polypod.studio.outbox import Telling
 from polypod.studio.overlays import Overlays
 from polypod.studio.stage import STEP, Stage
 from polypod.studio.tape import NOTHING, Tape
@@ -32,9 +33,9 @@ GONE = 0.4
 
 
 class Conductor:
-    """What the runner's thread does; `tell` sends an event to all tabs."""
+    """What the runner's thread does; `tell` sends something to all tabs."""
 
-    def __init__(self, stage: Stage, tell: Callable[[Any], None], event: Any) -> None:
+    def __init__(self, stage: Stage, tell: Callable[[Telling], None]) -> None:
         self.stage = stage
         self.history = History()
         self.playing = True
@@ -52,7 +53,7 @@ class Conductor:
         self._overlays = Overlays()
         self._wished: frozenset[str] = frozenset()
         self._overlays_told = 0.0
-        self._tell, self._event = tell, event
+        self._tell = tell
         self.newest = b""  # the frame sent last
         self._judge = Judge()
         self._verdict = stage.question().answer()
@@ -76,7 +77,7 @@ class Conductor:
 
     def say(self, message: dict[str, Any]) -> None:
         """Send a message to all tabs."""
-        self._tell(self._event("text", message))
+        self._tell(Telling("text", message))
 
     def tell_clock(self) -> None:
         """Say how time goes."""
@@ -126,7 +127,7 @@ class Conductor:
                 tape.add(frame)
                 if len(tape.frames) % 15 == 1:
                     self.say(tape_message(self))
-        self._tell(self._event("frame", frame))
+        self._tell(Telling("frame", frame))
 
     def watch_overlays(self, overlays: frozenset[str]) -> None:
         """Send these overlays from now on."""
@@ -139,7 +140,7 @@ class Conductor:
             return
         self._overlays_told = now
         for name, content in self._overlays.of(self.stage, self.focus, self._wished):
-            self._tell(self._event("arrays", content, name))
+            self._tell(Telling("arrays", content, name))
 
     # What stands and who walks.
 
@@ -286,7 +287,7 @@ class Conductor:
         self._stop_tape()
         self.scrubbed = index
         self.newest = content
-        self._tell(self._event("frame", content))
+        self._tell(Telling("frame", content))
         self.say(tape_message(self))
 
     def _do_watch(self, order: dict[str, Any]) -> None:

@@ -21,7 +21,7 @@ from polypod.errors import PolypodError
 from polypod.studio.guard import LARGEST_DOCUMENT, LARGEST_ORDER, RefusalError, parse_order
 from polypod.studio.orders import FOR_ALL, ORDERS, judge_order
 from polypod.studio.outbox import Outbox, Telling
-from polypod.studio.seam import Running, Told
+from polypod.studio.seam import Running
 from polypod.studio.tab import MOST_ORDERS, Tab, as_json
 
 SIZES = {do: LARGEST_DOCUMENT if do == "open" else LARGEST_ORDER for do in ORDERS}
@@ -43,13 +43,13 @@ class Hub:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stop_listening: Callable[[], None] = _nothing
 
-    def hear(self, told: Told) -> None:
+    def hear(self, telling: Telling) -> None:
         """Take what the simulation tells, in its own thread."""
         with self._lock:
             if self._loop is None:
                 return
             first = len(self._heard) == 0
-            self._heard.put(Telling(told.kind, told.content, told.name))
+            self._heard.put(telling)
             if first:
                 with suppress(RuntimeError):  # the loop has ended
                     self._loop.call_soon_threadsafe(self._pass_on)

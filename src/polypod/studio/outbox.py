@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 
 
 class Telling(NamedTuple):
-    """Something to be told; see `polypod.studio.seam.Told`."""
+    """Something for every tab: a message, a frame, or named arrays."""
 
-    kind: str
-    content: Any
-    name: str = ""
+    kind: str  # "text", "frame" or "arrays"
+    content: Any  # a message's dict, or bytes ready to send
+    name: str = ""  # of arrays: a newer one takes the place of one that waits
 
 
 class Outbox:

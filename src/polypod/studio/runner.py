@@ -8,11 +8,12 @@ import traceback
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 from polypod.errors import PolypodError
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
+from polypod.studio.outbox import Telling
 from polypod.studio.stage import STEP, FindRig, Stage
 
 Result = TypeVar("Result")
@@ -21,14 +22,6 @@ Result = TypeVar("Result")
 MOST_BEHIND = 0.1
 TELL_EVERY = 0.25
 IDLE = 0.25  # s for which it sleeps while nothing happens
-
-
-class Event(NamedTuple):
-    """Something for all tabs."""
-
-    kind: str  # "text", "frame" or "arrays"
-    content: Any  # a message's dict, or bytes
-    name: str = ""  # of arrays: a newer one takes the place of one that waits
 
 
 def fault(error: Exception) -> str:
@@ -46,7 +39,7 @@ class Runner:
         self._opening = (document, find_rig, given)
         self._work: deque[Callable[[], None]] = deque()
         self._woken = threading.Condition()
-        self._listeners: list[Callable[[Event], None]] = []
+        self._listeners: list[Callable[[Telling], None]] = []
         self._thread: threading.Thread | None = None
         self._stopped = False
         self.conductor: Conductor | None = None
@@ -66,12 +59,12 @@ class Runner:
         if self._thread is not None:
             self._thread.join(10.0)
 
-    def listen(self, hear: Callable[[Event], None]) -> Callable[[], None]:
+    def listen(self, hear: Callable[[Telling], None]) -> Callable[[], None]:
         """Have `hear` called, in the runner's thread, for all that tabs are to be sent."""
         self._listeners.append(hear)
         return lambda: self._listeners.remove(hear) if hear in self._listeners else None
 
-    def tell(self, event: Event) -> None:
+    def tell(self, event: Telling) -> None:
         """Tell all who listen."""
         for hear in list(self._listeners):
             hear(event)
@@ -144,11 +137,11 @@ class Runner:
             self.failed = error
             self.ready.set()
             return
-        self.conductor = Conductor(stage, self.tell, Event)
+        self.conductor = Conductor(stage, self.tell)
         self.conductor.step(STEP)
         self.ready.set()
         for message in self.conductor.greeting():
-            self.tell(Event("text", message))
+            self.tell(Telling("text", message))
         self._walk()
 
     def _walk(self) -> None:
@@ -185,7 +178,7 @@ class Runner:
             self._conductor.step(STEP)
         except Exception as error:
             self._conductor.playing = False
-            self.tell(Event("text", {"is": "trouble", "why": fault(error)}))
+            self.tell(Telling("text", {"is": "trouble", "why": fault(error)}))
             self._conductor.tell_clock()
 
     def _carry_out_work(self) -> None:

@@ -6,23 +6,9 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, Protocol, TypeVar
 
+from polypod.studio.outbox import Telling
+
 T = TypeVar("T")
-
-
-class Told(Protocol):
-    """Something for every tab: a message, a frame, or named arrays."""
-
-    @property
-    def kind(self) -> str:
-        """It is "text", "frame" or "arrays"."""
-
-    @property
-    def content(self) -> dict[str, Any] | bytes:
-        """A message of kind "text" as it goes into JSON, else bytes ready to send."""
-
-    @property
-    def name(self) -> str:
-        """The arrays' name; empty for others."""
 
 
 class Running(Protocol):
@@ -40,7 +26,7 @@ class Running(Protocol):
     def call(self, work: Callable[[Any], T]) -> Future[T]:
         """Have the conductor give something between two frames."""
 
-    def listen(self, hear: Callable[[Any], None]) -> Callable[[], None]:
+    def listen(self, hear: Callable[[Telling], None]) -> Callable[[], None]:
         """Have what is for every tab told to `hear`, in the thread; returns how to stop it."""
 
     def greeting(self) -> list[dict[str, Any]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from polypod.errors import SettingError
 from polypod.herd import Herd
 from polypod.jobs.cast import comfortable_speed
 from polypod.morphology.types import Morphology
+from polypod.report.arrays import FloatArray
 from polypod.world import World
 
 # Rows stand so many leg lengths apart, and a place that is not free is looked for so often.
@@ -31,27 +33,36 @@ def stand_beside(world: World, first: Herd, kinds: Sequence[tuple[Morphology, in
     herds = []
     behind = 3.0 * first.tables.leg_length + float(first.morphology.body.half_size[2])
     for morphology, count in kinds:
-        leg = float(morphology.legs.length.mean())
         wide = 2.0 * max(float(v) for v in morphology.body.half_size[[0, 2]])
-        apart = APART * leg + wide
-        side = math.ceil(math.sqrt(count))
+        apart = APART * float(morphology.legs.length.mean()) + wide
+        abreast = math.ceil(math.sqrt(count))
         index = np.arange(count)
-        rows = np.stack([index % side - 0.5 * (side - 1), -(index // side)], axis=1) * apart
-        herd = None
-        for attempt in range(TRIES):
-            places = rows - [0.0, behind + attempt * apart]
-            try:
-                herd = world.add(
-                    morphology, count, position=places, speed=comfortable_speed(morphology)
-                )
-                break
-            except SettingError:
-                if attempt == TRIES - 1:
-                    raise
-        if herd is not None:
-            herds.append(herd)
-            behind += apart * (1 + (count - 1) // side) + wide
+        places = apart * np.stack(
+            [index % abreast - 0.5 * (abreast - 1), -(index // abreast)], axis=1
+        )
+        herds.append(_stand(world, morphology, places, behind, apart))
+        behind += apart * (1 + (count - 1) // abreast) + wide
     return herds
+
+
+def _stand(
+    world: World, morphology: Morphology, places: FloatArray, behind: float, apart: float
+) -> Herd:
+    """Stand creatures at places [C, 2], so far behind or a few rows more, until these are free.
+
+    Raises:
+        SettingError: none of the places tried is free.
+    """
+
+    def stand(attempt: int) -> Herd:
+        back = places - [0.0, behind + attempt * apart]
+        speed = comfortable_speed(morphology)
+        return world.add(morphology, len(places), position=back, speed=speed)
+
+    for attempt in range(TRIES - 1):
+        with suppress(SettingError):
+            return stand(attempt)
+    return stand(TRIES - 1)
 
 
 class Wanderers:
