@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import base64
 import io
+import time
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -94,12 +96,94 @@ def test_record_is_taken_away_as_glb_npz_picture_and_video(tab: Any) -> None:
         assert len(record["body_position"]) == frames
     _, data = tab.download(tab.button("PNG, a picture of it").click)
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    tab.button("Video of it").click()
-    tab.page.wait_for_timeout(1500)
-    name, data = tab.download(tab.button("■ Stop the video").click)
-    assert name == "walk.webm"
-    assert data[:4] == b"\x1a\x45\xdf\xa3"
     tab.keep("record")
+
+
+# What a player finds in a video: how long it is, and where it is after going to a place of it.
+PLAYED = """
+async (text) => {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const video = document.createElement("video");
+  video.muted = true;
+  const heard = (kind) => new Promise((resolve, reject) => {
+    video.addEventListener(kind, resolve, { once: true });
+    video.addEventListener("error", () => reject(new Error(video.error.message)), { once: true });
+  });
+  const loaded = heard("loadedmetadata");
+  video.src = URL.createObjectURL(new Blob([bytes], { type: "video/webm" }));
+  await loaded;
+  const places = [];
+  for (const share of [0.75, 0.25, 0.5]) {
+    const sought = heard("seeked");
+    video.currentTime = share * video.duration;
+    await sought;
+    places.push(video.currentTime / video.duration);
+  }
+  return { duration: video.duration, places, width: video.videoWidth };
+}
+"""
+CLUSTER, CUES, CUE_POSITIONS, CUE_CLUSTER = "1f43b675", "1c53bb6b", "b7", "f1"
+
+
+def ebml(data: bytes, begin: int, end: int) -> Iterator[tuple[str, int, int]]:
+    """Yield id, begin and end of elements; one without a size goes on to the end."""
+    at = begin
+    while at < end:
+        named = 9 - data[at].bit_length()
+        name = data[at : at + named].hex()
+        at += named
+        length = 9 - data[at].bit_length()
+        size = int.from_bytes(data[at : at + length]) - (1 << 7 * length)
+        at += length
+        stop = end if size == (1 << 7 * length) - 1 else at + size
+        yield name, at, stop
+        at = stop
+
+
+def cued(data: bytes) -> list[int]:
+    """Return where a video's cues lead to in the file, and judge its segment."""
+    segment = next(place for place in ebml(data, 0, len(data)) if place[0] == "18538067")
+    found = []
+    for name, begin, end in ebml(data, *segment[1:]):
+        if name == CLUSTER:
+            break
+        if name == CUES:
+            for _, *point in ebml(data, begin, end):
+                positions = [part for part in ebml(data, *point) if part[0] == CUE_POSITIONS]
+                for _, *position in positions:
+                    for part, at, stop in ebml(data, *position):
+                        if part == CUE_CLUSTER:
+                            found.append(segment[1] + int.from_bytes(data[at:stop]))
+    return found
+
+
+def test_a_video_of_the_view_can_be_scrubbed(tab: Any) -> None:
+    tab.open_panel("Record")
+    began = time.monotonic()
+    tab.button("Video of it").click()
+    tab.page.wait_for_timeout(3500)
+    name, data = tab.download(tab.button("■ Stop the video").click)
+    took = time.monotonic() - began
+    assert name == "walk.webm"
+    played = tab.page.evaluate(PLAYED, base64.b64encode(data).decode())
+    assert 2.0 < played["duration"] < took
+    assert played["places"] == pytest.approx([0.75, 0.25, 0.5], abs=0.01)
+    assert played["width"] > 100
+    places = cued(data)
+    assert places, "there are cues"
+    assert all(data[place : place + 4].hex() == CLUSTER for place in places)
+
+
+def test_what_is_no_video_is_left_as_it_is(tab: Any) -> None:
+    same = tab.ask(
+        "async () => {"
+        " const { seekable } = await import('/page/webm.js');"
+        " const odd = ['', 'no video', '\\x1aE', String.fromCharCode(26, 69, 31, 35)];"
+        " const blobs = odd.map((text) => new Blob([text]));"
+        " return (await Promise.all(blobs.map(async (one) => (await seekable(one)) === one)))"
+        "}"
+    )
+    assert same == [True] * 4
 
 
 def test_link_reproduces_the_state_and_a_broken_one_is_told(
