@@ -45,7 +45,7 @@ function exports(store) {
   const buttons = FILES.map(([words, name]) => makeButton(words, async () => {
     for (const button of buttons) button.disabled = true;
     try {
-      const answer = await store.fetch(`/export/${name}`);
+      const answer = await store.fetchSettled(`/export/${name}`);
       saveAs(await answer.blob(), nameFrom(answer, name));
     } catch (error) {
       store.say(error.message);

@@ -243,7 +243,7 @@ class RigPanel {
 
   async saveCreature() {
     try {
-      const answer = await this.store.fetch("/export/creature.toml");
+      const answer = await this.store.fetchSettled("/export/creature.toml");
       saveAs(await answer.blob(), "creature.toml");
     } catch (error) {
       this.store.say(error.message);

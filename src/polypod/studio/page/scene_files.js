@@ -20,7 +20,7 @@ export function sceneFiles(store) {
 
 async function saveScene(store) {
   try {
-    const answer = await store.fetch("/export/scene.toml");
+    const answer = await store.fetchSettled("/export/scene.toml");
     saveAs(await answer.blob(), "scene.toml");
   } catch (error) {
     store.say(error.message);
@@ -33,7 +33,7 @@ async function openScene(store, file) {
     return;
   }
   try {
-    await store.fetch("/scene", { method: "POST", body: await file.text() });
+    await store.fetchSettled("/scene", { method: "POST", body: await file.text() });
     store.say(`${file.name} is open.`, true);
   } catch (error) {
     store.say(error.message);

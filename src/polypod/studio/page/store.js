@@ -73,10 +73,14 @@ export class Store {
     return document.querySelector("meta[name=polypod-token]").content;
   }
 
-  // Fetch a route with the token, after all that was asked for before; throws the server's own word
-  // where it says no.
-  async fetch(route, options = {}) {
+  // Fetch what depends on what was asked for, after all of that is done.
+  async fetchSettled(route, options = {}) {
     await this.orders.settled();
+    return this.fetch(route, options);
+  }
+
+  // Fetch a route with the token; throws the server's own word where it says no.
+  async fetch(route, options = {}) {
     const headers = { ...(options.headers ?? {}), "X-Polypod-Token": this.token };
     const answer = await fetch(route, { ...options, headers });
     if (answer.ok) return answer;
