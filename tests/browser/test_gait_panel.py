@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from typing import Any
 
@@ -258,3 +259,54 @@ def test_lanes_are_chosen_and_stay_chosen(new_tab: Callable[..., Any]) -> None:
     speed.click()
     tab.page.reload()
     assert speed.get_attribute("aria-pressed") == "true"
+
+
+# The wheels' circle fed with sixty frames a second by a clock of its own: after a second everything
+# is turned by .4 of a cycle, and foot 1 takes another disk.
+TURNED = """
+async () => {
+  const { Circle } = await import("/page/circle.js");
+  const real = performance.now;
+  let now = 1000;
+  performance.now = () => now;
+  let hear;
+  const circle = new Circle({ on: (kind, listener) => { hear = listener; } });
+  const rate = 1.5;
+  const wrap = (phase) => phase - Math.floor(phase);
+  const seen = [];
+  for (let n = 0; n < 360; n++) {
+    now += 1000 / 60;
+    const turned = n < 60 ? 0 : 0.4;
+    const feet = [
+      { start: wrap(0.1 + turned), extent: 0.3 },
+      { start: wrap((n < 60 ? 0.6 : 0.9) + turned), extent: n < 60 ? 0.3 : 0.5 },
+    ];
+    const needle = wrap((rate * n) / 60 + turned);
+    const focus = { kind: 0, creature: 0, needle, cycleRate: rate, feet };
+    hear({ time: n / 60, tapeFrame: null, focus });
+    const shown = feet.map((disk, k) => circle.shown(k, disk));
+    const phase = needle - feet[0].start;
+    const [first, second] = shown;
+    seen.push([wrap(needle + circle.turn), first.start, second.start, second.extent, phase]);
+  }
+  performance.now = real;
+  return seen;
+}
+"""
+
+
+def test_wheels_stay_where_they_are_when_the_circle_is_turned(tab: Any) -> None:
+    seen = tab.page.evaluate(TURNED)
+    for (needle, first, second, extent, _), after in itertools.pairwise(seen):
+        assert apart(after[0], needle + 1.5 / 60.0) < 0.02, "the needle goes on at its pace"
+        assert apart(after[1], first) < 0.02
+        assert apart(after[2], second) < 0.06, "a disk of its own goes sooner, but jumps no more"
+        assert abs(after[3] - extent) < 0.03
+    for needle, first, _, _, phase in seen:
+        assert apart(needle - first, phase) < 1e-9, "needle and disk are as they are to each other"
+    assert apart(seen[59][1], 0.1) < 1e-9
+    assert apart(seen[60][1], 0.1) < 0.02
+    last = seen[-1]
+    assert apart(last[1], 0.5) < 0.01
+    assert apart(last[2], 0.3) < 0.01
+    assert last[3] == pytest.approx(0.5, abs=1e-3)

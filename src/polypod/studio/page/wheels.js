@@ -27,7 +27,7 @@ export class Wheels {
     const turn = () => {
       requestAnimationFrame(turn);
       if (this.wheels.length === 0 || !shown(this.element)) return;
-      const needle = needleNow(store) + this.circle.turn();
+      const needle = needleNow(store) + this.circle.turn;
       for (const wheel of this.wheels) wheel.showNeedle(needle);
     };
     turn();
@@ -70,7 +70,7 @@ export class Wheels {
     const disks = disksOf(this.store);
     if (!disks || disks.start.length !== this.wheels.length) return;
     // What was drawn by hand is where the hand put it.
-    const turn = isDrawn(this.store) ? 0 : this.circle.turn();
+    const turn = isDrawn(this.store) ? 0 : this.circle.turn;
     this.wheels.forEach((wheel, k) => wheel.showAsked(wrap(disks.start[k] + turn), disks.extent[k]));
   }
 
@@ -78,9 +78,9 @@ export class Wheels {
     const disks = disksInUse(this.store);
     if (!disks || disks.start.length !== this.wheels.length || !shown(this.element)) return;
     const { feet } = this.store.frame.focus;
-    const turn = this.circle.turn();
     this.wheels.forEach((wheel, k) => {
-      wheel.showDisk(disks.start[k] + turn, disks.extent[k]);
+      const { start, extent } = this.circle.shown(k, feet[k]);
+      wheel.showDisk(start, extent);
       wheel.showState(!feet[k].stance, feet[k].next);
     });
     if (!isDrawn(this.store)) this.showAsked();
