@@ -29,6 +29,7 @@ from polypod.reference import by_reference
 from polypod.routes.passable import CELL
 from polypod.routes.state import ROUTE_CELLS, RouteScratch, make_route_scratch
 from polypod.spine.struck import bend_by_blow
+from polypod.state import HerdTables
 from polypod.tables import folding_room, make_tables, step_share
 
 WAYPOINT_ROOM = 256
@@ -82,12 +83,19 @@ class Herd:
         pose: where every joint is, after the last step.
     """
 
-    def __init__(self, morphology: Morphology, count: int, settings: Settings) -> None:
+    def __init__(
+        self,
+        morphology: Morphology,
+        count: int,
+        settings: Settings,
+        tables: HerdTables | None = None,
+    ) -> None:
+        """Make a herd that stands nowhere yet; `tables` are the morphology's, if they are made."""
         feet = len(morphology.foot_name)
         joints = len(morphology.joint_node)
         self.morphology = morphology
         self.plan_settings = PlanSettings()
-        self.tables = make_tables(morphology)
+        self.tables = make_tables(morphology) if tables is None else tables
         spine = self.tables.spine
         self.state = make_state(
             count,
@@ -114,6 +122,19 @@ class Herd:
         """Return how high, m, feet are lifted over level ground where nobody says how high."""
         share = step_share(settings, self.tables) * self.tables.leg_length
         return float(min(share, FOLDING * folding_room(self.tables)))
+
+    def take_limits(self, morphology: Morphology, tables: HerdTables) -> None:
+        """Go on with other joint limits; `polypod.relimit` judges them first.
+
+        Args:
+            morphology: the same creature, limited otherwise.
+            tables: its own.
+        """
+        self.morphology, self.tables = morphology, tables
+        self.kernel_tables = by_reference(tables)
+        # Working memory refers to the tables.
+        self._memory.clear()
+        self._scratch.clear()
 
     def join(self, company: Company, first: int) -> None:
         """Take part in a world's company, its creatures in rows from `first` on."""

@@ -31,8 +31,11 @@ STEP_UPRIGHT = 0.115
 STEP_SPRAWLING = 0.175
 
 
-def make_tables(morphology: Morphology) -> HerdTables:
-    """Return a morphology's static data as kernels read it."""
+def make_tables(morphology: Morphology, like: HerdTables | None = None) -> HerdTables:
+    """Return a morphology's static data as kernels read it.
+
+    `like`: those of the same creature with other joint limits, which save the most of the time.
+    """
     legs = morphology.legs
     driven = np.zeros(len(morphology.joint_node), np.bool_)
     driven[legs.joint[legs.joint >= 0]] = True
@@ -43,7 +46,7 @@ def make_tables(morphology: Morphology) -> HerdTables:
     track = float(np.mean(np.abs(legs.sole_stance[:, 0]) + legs.foot_half_size[:, 0]))
     hip_height = float(np.mean(legs.point_rest[:, 0, 1] - legs.sole_stance[:, 1]))
     hip_height = max(hip_height, 0.05 * leg_length)
-    ik = build_ik_table(legs)
+    ik = build_ik_table(legs, None if like is None else (like.legs, like.ik))
     girdles = find_girdles(legs)
     bend = make_bend_table(morphology.segments, girdles, legs)
     girdle_yaw = PELVIC_YAW * bend.apart if len(morphology.segments.joint) else 0.0

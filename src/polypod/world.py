@@ -123,6 +123,14 @@ class World:
         herd = Herd(morphology, count, settings or Settings())
         herd.command.speed = speed
         herd.command.heading = heading
+        self.enter(herd, position, gait)
+        return herd
+
+    def enter(
+        self, herd: Herd, position: ArrayLike | None = None, gait: Gait | str | None = None
+    ) -> None:
+        """Stand a herd that was made elsewhere in the world; arguments and errors are `add`'s."""
+        morphology, count = herd.morphology, herd.count
         places = rows(count, herd.tables.leg_length) if position is None else position
         given = numbers_of("a creature's position", places, "metres")
         if given.shape not in ((2,), (count, 2)) or not np.all(np.abs(given) <= FARTHEST):
@@ -152,7 +160,6 @@ class World:
                 )
         self.herds.append(herd)
         self._meet()
-        return herd
 
     def _meet(self) -> None:
         """Make the creatures of all herds known to each other."""

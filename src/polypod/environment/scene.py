@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,8 @@ from polypod.environment.scene_values import SceneTable, shown, within
 from polypod.environment.splitting import MOST_PARTS, Split
 from polypod.environment.terrain import Terrain
 from polypod.environment.tiled import TiledTerrain
-from polypod.errors import SceneError, choices
+from polypod.errors import RigError, SceneError, choices
+from polypod.morphology.creature import judge_limits
 
 MOST_THINGS = 100_000  # obstacles, or creatures
 MOST_WAYPOINTS = 10_000
@@ -44,8 +46,8 @@ class CreatureSpec:
     """Some creatures of one kind, as a scene asks for them; None where it says nothing.
 
     `leg`, `spine`, `forward`, `height` and `body_height` mean what the command line's options of
-    the same names mean. `position` is x, z in metres, `heading` radians from +Z toward +X, `speed`
-    metres per second, `path` waypoints x, z in metres.
+    the same names mean, `limit` what it means in a creature file. `position` is x, z in metres,
+    `heading` radians from +Z toward +X, `speed` metres per second, `path` waypoints x, z in metres.
     """
 
     rig: str
@@ -54,6 +56,7 @@ class CreatureSpec:
     forward: str | None = None
     height: float | None = None
     body_height: float | None = None
+    limit: Mapping[str, Mapping[str, Any]] | None = None
     count: int = 1
     position: tuple[float, float] | None = None
     heading: float | None = None
@@ -253,6 +256,7 @@ def _creature(place: str, values: Any) -> CreatureSpec:
         forward=table.text("forward") if "forward" in table else None,
         height=size("height"),
         body_height=size("body_height"),
+        limit=_limits(place, values["limit"]) if "limit" in table else None,
         count=table.whole("count", 1, 1, MOST_THINGS),
         position=(x, z) if "position" in table else None,
         heading=(
@@ -264,6 +268,14 @@ def _creature(place: str, values: Any) -> CreatureSpec:
         speed=table.number("speed", None, 0.0, FASTEST) if "speed" in table else None,
         path=tuple((point[0], point[1]) for point in path),
     )
+
+
+def _limits(place: str, values: Any) -> Mapping[str, Mapping[str, Any]]:
+    try:
+        judge_limits(place, values)
+    except RigError as error:
+        raise SceneError(str(error)) from None
+    return dict(values)
 
 
 def _push(place: str, values: Any, creatures: int) -> PushSpec:

@@ -42,8 +42,11 @@ TRAVEL_DIRECTIONS = 12
 STANCE_END = 0.99
 
 
-def build_ik_table(legs: LegTable) -> IkTable:
+def build_ik_table(legs: LegTable, like: tuple[LegTable, IkTable] | None = None) -> IkTable:
     """Return the bones, hinges, limits, fold and reach of every leg.
+
+    `like`: the same legs with other limits, and their table; those whose limits are the same are
+    taken from there, which saves the most of the time.
 
     Overrides: `bend_limit` is a range about the rest bend, positive where the joint turns more;
     `hip_limit` the half ranges of flexion, sideways swing and twist about the stance. Angles in
@@ -53,10 +56,23 @@ def build_ik_table(legs: LegTable) -> IkTable:
     # The same arrays, as the simulation's kernels take them: compiled once for both.
     kernel_ik = by_reference(ik)
     for leg in range(len(legs.joint_count)):
+        if like is not None and _limited_alike(legs, like[0], leg):
+            for mine, theirs in zip(ik, like[1], strict=True):
+                mine[leg] = theirs[leg]
+            continue
         _fill_leg(ik, legs, leg)
         _fill_stance(ik, kernel_ik, leg)
         _fill_travel(ik, kernel_ik, leg)
     return ik
+
+
+def _limited_alike(legs: LegTable, others: LegTable, leg: int) -> bool:
+    return all(
+        np.array_equal(mine[leg], theirs[leg], equal_nan=True)
+        for mine, theirs in (
+            (legs.bend_limit, others.bend_limit), (legs.hip_limit, others.hip_limit)
+        )
+    )  # fmt: skip
 
 
 def guesses(ik: IkTable, foot_name: Sequence[str]) -> list[str]:

@@ -104,6 +104,7 @@ def _load(place: str, spec: CreatureSpec, folder: Path) -> Morphology:
             forward=spec.forward,
             height=spec.height,
             body_height=spec.body_height,
+            limits=spec.limit,
         )
     except PolypodError as error:
         raise type(error)(f"{place}: {error}") from None

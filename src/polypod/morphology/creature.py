@@ -52,6 +52,9 @@ FOOT_KEYS = ("half_size", "weight")
 HIP_KEYS = ("flexion", "sideways", "twist")
 SPINE_KEYS = ("yaw", "pitch", "roll")
 LIMIT_KEYS = ("bend", *HIP_KEYS, *SPINE_KEYS)
+LARGEST_NUMBER = 1e300
+# By a joint's name, and by key: one angle or two, radians.
+Limits = Mapping[str, Mapping[str, tuple[float, ...]]]
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,7 @@ class Creature:
     half_size: tuple[float, ...] | None = None
     foot_half_size: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     foot_weight: Mapping[str, float] = field(default_factory=dict)
-    limit: Mapping[str, Mapping[str, tuple[float, ...]]] = field(default_factory=dict)
+    limit: Limits = field(default_factory=dict)
 
 
 def read_creature(path: Path) -> Creature:
@@ -95,7 +98,6 @@ def read_creature(path: Path) -> Creature:
     beside = path.parent / rig
     body = table.inner("body", BODY_KEYS)
     feet = table.named("foot", FOOT_KEYS)
-    limits = table.named("limit", LIMIT_KEYS)
     return Creature(
         file=path.name,
         rig=str(beside) if beside.is_file() else rig,
@@ -118,8 +120,27 @@ def read_creature(path: Path) -> Creature:
             for name, foot in feet.items()
             if (weight := foot.number("weight", above=0.0)) is not None
         },
-        limit={name: _limits(entry) for name, entry in limits.items()},
+        limit=_all_limits(table),
     )
+
+
+def judge_limits(what: str, values: object) -> Limits:
+    """Return joint limits by the joints' names, as a creature file's [limit] has them, judged.
+
+    Which joints there are is judged where the rig is known.
+
+    Args:
+        what: holds them, the start of each error.
+        values: a table for each joint.
+
+    Raises:
+        RigError: a key that is none, or an angle out of its range.
+    """
+    return _all_limits(_Table(what, "", {"limit": values}))
+
+
+def _all_limits(table: _Table) -> Limits:
+    return {name: _limits(entry) for name, entry in table.named("limit", LIMIT_KEYS).items()}
 
 
 def _limits(entry: _Table) -> dict[str, tuple[float, ...]]:
@@ -196,13 +217,14 @@ class _Table:
         value = self.data.get(key)
         if value is None:
             return None
-        if not (isinstance(value, list) and len(value) == count):
+        if not (isinstance(value, list | tuple) and len(value) == count):
             raise self.error(key, f"must be a list of {count} numbers")
         return tuple(self._judge(key, item, above) for item in value)
 
     def _judge(self, key: str, value: Any, above: float) -> float:
         usable = isinstance(value, int | float) and not isinstance(value, bool)
-        if not usable or not math.isfinite(value) or not value > above:
+        # Whole numbers may have more digits than any float.
+        if not usable or not abs(value) <= LARGEST_NUMBER or not value > above:
             bound = "" if above == -math.inf else f" above {above:g}"
             raise self.error(key, f"must be a number{bound}")
         return float(value)

@@ -16,7 +16,7 @@ from polypod.morphology.backbone import Middle
 from polypod.morphology.builtin import NAMES as BUILT_IN
 from polypod.morphology.builtin import build as build_builtin
 from polypod.morphology.chains import spine_and_tail
-from polypod.morphology.creature import Creature, read_creature
+from polypod.morphology.creature import Creature, judge_limits, read_creature
 from polypod.morphology.detect import detect_legs
 from polypod.morphology.facing import turn_to_face
 from polypod.morphology.girdles import find_girdles
@@ -49,6 +49,7 @@ def load_rig(
     height: float | None = None,
     body_height: float | None = None,
     weights: Mapping[str, float] | None = None,
+    limits: Mapping[str, Mapping[str, object]] | None = None,
 ) -> Morphology:
     """Read a rig and work out how its creature is built.
 
@@ -64,6 +65,8 @@ def load_rig(
         body_height: m, preferred height of the body centre above the soles; None: from the rest.
         weights: by a foot's name or #index, how much of the body it carries where others carry 1;
             it counts for the body's vertical motion.
+        limits: by a joint's name or #index, how far it turns, as a creature file's `limit` has it;
+            {}: as far as follows from its build.
 
     Returns:
         The morphology, in metres, in the body frame.
@@ -73,6 +76,8 @@ def load_rig(
         SettingError: an argument is out of its range.
     """
     creature = _ask(rig, legs, spine, forward, height, body_height, weights)
+    if limits is not None:
+        creature = replace(creature, limit=judge_limits(creature.file, limits))
     named = creature.spine is not None
     document, creature = _open(creature)
     file_skeleton = read_skeleton(document)

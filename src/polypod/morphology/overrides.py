@@ -56,9 +56,13 @@ def override_limits(morphology: Morphology, skeleton: Skeleton, creature: Creatu
         for m in range(int(legs.joint_count[k]))
     }
     in_spine = _rows_of_limits(morphology, spine)
+    said: dict[int, str] = {}
     for name, limits in creature.limit.items():
         place = f'{creature.file}: limit."{name}"'
         node = find_node(skeleton, name, place)
+        if node in said:
+            raise RigError(f'{place}: is the joint of limit."{said[node]}" too; leave one out')
+        said[node] = name
         if node in in_leg:
             first = in_leg[node][1] == 0
             what = "the first joint of a leg" if first else "this joint of a leg"

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from polypod.herd import Herd
+from polypod.morphology.creature import HIP_KEYS
 from polypod.morphology.types import Morphology
 from polypod.report.arrays import FloatArray
 
@@ -19,11 +20,11 @@ Fan = dict[str, Any]
 
 
 def limit_fans(herd: Herd) -> list[Fan]:
-    """Return how far each joint turns: a fan `of` a row, at a `place`, about an `axis`.
+    """Return how far each `joint` turns: a fan `of` a row, at a `place`, about an `axis`.
 
     It reaches from the `least` to the `most` angle, radians about the axis, of a direction `from`,
-    at right angles to it. A hinge has one fan, a hip two, forward and sideways about its stance; a
-    joint of the spine two, for yaw and pitch.
+    at right angles to it. A fan is of one `key` of the joint's limits: a hinge has one, a hip and a
+    joint of spine or tail three.
     """
     return [*_hip_fans(herd), *_hinge_fans(herd), *_spine_fans(herd.morphology)]
 
@@ -60,10 +61,12 @@ def _hip_fans(herd: Herd) -> list[Fan]:
     ik, fans = herd.tables.ik, []
     for leg in range(len(ik.joint_count)):
         of = _carrier(herd.morphology, leg)
+        joint = int(herd.morphology.legs.joint[leg, 0])
         limb, flexion = ik.limb_axis[leg], ik.flexion_axis[leg]
-        for axis, limit in ((flexion, ik.hip_limit[leg, 0]),
-                            (np.cross(limb, flexion), ik.hip_limit[leg, 1])):  # fmt: skip
-            fans.append(_fan(of, ik.hip_rest[leg], axis, limb, -limit, limit))
+        ways = (flexion, limb), (np.cross(limb, flexion), limb), (limb, flexion)
+        for key, (axis, start), limit in zip(HIP_KEYS, ways, ik.hip_limit[leg], strict=True):
+            fan = _fan(of, ik.hip_rest[leg], axis, start, -limit, limit)
+            fans.append(fan | {"joint": joint, "key": key})
     return fans
 
 
@@ -78,30 +81,48 @@ def _hinge_fans(herd: Herd) -> list[Fan]:
             # What does not bend, or lies along its own hinge, has nothing to show.
             if not axis.any() or size < 1e-9:
                 continue
-            fans.append(
-                _fan(
-                    int(legs.joint[leg, joint - 1]),
-                    legs.point_rest[leg, joint],
-                    axis,
-                    across / size,
-                    float(ik.turn_low[leg, joint]),
-                    float(ik.turn_high[leg, joint]),
-                )
+            fan = _fan(
+                int(legs.joint[leg, joint - 1]),
+                legs.point_rest[leg, joint],
+                axis,
+                across / size,
+                float(ik.turn_low[leg, joint]),
+                float(ik.turn_high[leg, joint]),
             )
+            fans.append(fan | {"joint": int(legs.joint[leg, joint]), "key": "bend"})
     return fans
 
 
 def _spine_fans(morphology: Morphology) -> list[Fan]:
     spine, fans = morphology.segments, []
-    upward, left = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
-    for segment in range(1, len(spine.joint)):
-        of = int(spine.joint[segment - 1])
-        begin, end = spine.pivot_rest[segment], spine.pivot_rest[segment + 1]
-        for axis, limit in zip((upward, left), spine.limit[segment], strict=False):
-            along = (end - begin) - ((end - begin) @ axis) * axis
-            size = float(np.linalg.norm(along))
-            if size > 1e-9:
-                fans.append(_fan(of, begin, axis, along / size, -float(limit), float(limit)))
+    for index, hinge in enumerate(spine.hinge):
+        if 0 < hinge < len(spine.joint):
+            ends = spine.pivot_rest[hinge], spine.pivot_rest[hinge + 1]
+            joint, of = int(spine.joint[index]), int(spine.joint[hinge - 1])
+            fans += _three_ways(joint, of, *ends, spine.limit[hinge])
+    for index, row in enumerate(spine.tail_joint):
+        ends = spine.tail_pivot_rest[index], spine.tail_pivot_rest[index + 1]
+        of = int(spine.tail_joint[index - 1] if index else spine.joint[0])
+        fans += _three_ways(int(row), of, *ends, spine.tail_limit[index])
+    return fans
+
+
+def _three_ways(
+    joint: int, of: int, begin: FloatArray, end: FloatArray, limit: FloatArray
+) -> list[Fan]:
+    """Return the fans of a joint of spine or tail: yaw, pitch and roll."""
+    left, upward, ahead = np.eye(3)
+    fans = []
+    for key, axis, start, most in (
+        ("yaw", upward, end - begin, limit[0]),
+        ("pitch", left, end - begin, limit[1]),
+        ("roll", ahead, upward, limit[2]),
+    ):
+        along = start - (start @ axis) * axis
+        size = float(np.linalg.norm(along))
+        if size > 1e-9:
+            fan = _fan(of, begin, axis, along / size, -float(most), float(most))
+            fans.append(fan | {"joint": joint, "key": key})
     return fans
 
 

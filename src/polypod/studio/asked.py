@@ -20,6 +20,7 @@ from polypod.report.record import bones
 from polypod.report.scenery import foot_colours
 from polypod.studio.anatomy import limit_fans, pelvis_nodes, spine_line
 from polypod.studio.document import SETTINGS, Document
+from polypod.studio.joint_limits import LimitedRig, list_limits
 
 # How much farther than the gait's top speed a speed may be asked for, and how high feet may be
 # lifted and bodies carried, leg lengths.
@@ -169,7 +170,17 @@ def ranges_of(herd: Herd) -> dict[str, dict[str, Any]]:
     }
 
 
-def facts_of(herd: Herd) -> dict[str, Any]:
+def limits_of(herd: Herd, rig: LimitedRig) -> dict[str, Any]:
+    """Return the message that says how far a creature's joints turn now."""
+    return {
+        "is": "limits",
+        "ranges": ranges_of(herd),
+        "limits": list_limits(herd, rig),
+        "fans": limit_fans(herd),
+    }
+
+
+def facts_of(herd: Herd, rig: LimitedRig) -> dict[str, Any]:
     """Return the message that says what a creature is."""
     morphology, tables = herd.morphology, herd.tables
     legs, body, spine = morphology.legs, morphology.body, morphology.segments
@@ -187,6 +198,7 @@ def facts_of(herd: Herd) -> dict[str, Any]:
         for k, name in enumerate(morphology.foot_name)
     ]
     return {
+        **limits_of(herd, rig),
         "is": "creature",
         "name": morphology.name,
         "feet": feet,
@@ -206,16 +218,7 @@ def facts_of(herd: Herd) -> dict[str, Any]:
         "guesses": list(morphology.guesses),
         "gaits": list(names()),
         "ladder": list(herd.ladder),
-        "ranges": ranges_of(herd),
-        "limits": [
-            {
-                "joint": int(row),
-                "name": morphology.joint_name[int(row)] if row >= 0 else "",
-                **dict(zip(("yaw", "pitch", "roll"), (float(v) for v in limit), strict=True)),
-            }
-            for row, limit in zip(spine.joint, spine.limit, strict=True)
-        ],
-        "fans": limit_fans(herd),
+        "file_limit": rig.said,
         "spine_line": spine_line(morphology),
         "pelvis": pelvis_nodes(morphology),
     }

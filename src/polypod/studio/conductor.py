@@ -8,7 +8,7 @@ from typing import Any
 
 from polypod.errors import SettingError
 from polypod.gait.library import make_gait
-from polypod.studio.asked import disks_of, facts_of
+from polypod.studio.asked import disks_of, facts_of, limits_of
 from polypod.studio.document import Document, edited, judged
 from polypod.studio.frames import Focus, MotionMeter, pack_frame
 from polypod.studio.history import History
@@ -67,7 +67,7 @@ class Conductor:
         """Return the messages that a new tab needs, in their order."""
         return [
             welcome_message(self),
-            facts_of(self.stage.herd),
+            facts_of(self.stage.herd, self.stage.rig),
             kinds_message(self),
             document_message(self),
             clock_message(self),
@@ -121,7 +121,7 @@ class Conductor:
         if tape is not None and tape.recording and dt is not None:
             if tape.full or not tape.fits(stage.world):
                 self._stop_tape()
-                why = "the tape is full" if tape.full else "there are other obstacles now"
+                why = "the tape is full" if tape.full else "there are other obstacles or limits now"
                 self.say({"is": "trouble", "why": f"recording has ended: {why}"})
             else:
                 tape.add(frame)
@@ -146,12 +146,12 @@ class Conductor:
 
     def _renew_skins(self) -> None:
         for herd in self.stage.herds:
-            key = id(herd.morphology)
+            key = id(herd.morphology.source)  # other limits are no other skin
             if key not in self.skin_numbers:
                 self._counter += 1
                 self.skin_numbers[key] = self._counter
                 self.skins[self._counter] = pack_skin(herd.morphology)
-        walking = {id(herd.morphology) for herd in self.stage.herds}
+        walking = {id(herd.morphology.source) for herd in self.stage.herds}
         for key, number in list(self.skin_numbers.items()):
             if key not in walking:
                 del self.skin_numbers[key]
@@ -188,6 +188,8 @@ class Conductor:
             self.history.note(before, gesture)
         if applied.creature or applied.ground:
             self._begin_anew(applied.creature)
+        if applied.limits:
+            self.say(limits_of(self.stage.herd, self.stage.rig))
         self.say(document_message(self))
         if any(document[k] != before[k] for k in ("creature", "gait", "command")):
             self._judge.ask(self.stage.question())
@@ -202,7 +204,7 @@ class Conductor:
         self._renew_skins()
         self._renew_ground()
         if creature:
-            self.say(facts_of(self.stage.herd))
+            self.say(facts_of(self.stage.herd, self.stage.rig))
         self.say(kinds_message(self))
 
     # Orders.

@@ -20,11 +20,12 @@ from polypod.environment.scene_values import SceneTable, shown
 from polypod.environment.terrain import Terrain
 from polypod.environment.tiled import TiledTerrain
 from polypod.errors import SettingError, choices
+from polypod.morphology.creature import judge_limits
 
 KEYS = (
     "creature", "crowd", "command", "gait", "spacing", "settings", "path", "terrain", "obstacle",
 )  # fmt: skip
-CREATURE = ("rig", "leg", "spine", "forward", "height", "body_height")
+CREATURE = ("rig", "leg", "spine", "forward", "height", "body_height", "limit")
 # What is asked for, the least and the most that are taken, and whether null stands for a default.
 COMMAND = {
     "speed": (0.0, 100.0, True),
@@ -41,6 +42,7 @@ SETTINGS = ("spine", "spine_yaw", "spine_flexion", "gaze", "tail", "bounce", "no
 LARGEST_SCALE = 3.0
 OPTIONAL = ("obstacle", "terrain")
 MOST_OBSTACLES, MOST_WAYPOINTS, MOST_CREATURES, MOST_FEET = 500, 256, 200, 256
+MOST_LIMITS = 1000  # joints
 WIDEST_SPACING = 10.0  # m
 Document = dict[str, Any]
 
@@ -164,6 +166,13 @@ def _judge_creature(place: str, values: Any) -> None:
     for key in ("height", "body_height"):
         if table.values.get(key) is not None:
             table.number(key, None, 1e-6, 1000.0)
+    limits = table.values.get("limit")
+    if limits is not None:
+        if isinstance(limits, dict) and len(limits) > MOST_LIMITS:
+            raise SettingError(
+                f"{place}: limit has {len(limits)} joints; the most is {MOST_LIMITS}"
+            )
+        judge_limits(place, limits)
 
 
 def _judge_crowd(kinds: list[Any]) -> None:

@@ -32,7 +32,7 @@ def kinds_message(conductor: Conductor) -> Message:
     """Say who walks, and which skins and ground that is drawn with."""
     kinds = [
         {
-            "skin": conductor.skin_numbers[id(herd.morphology)],
+            "skin": conductor.skin_numbers[id(herd.morphology.source)],
             "count": herd.count,
             "joints": len(herd.morphology.joint_node) + 1,
             "name": herd.morphology.name,

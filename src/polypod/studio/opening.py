@@ -72,7 +72,7 @@ def opening(given: argparse.Namespace, rigs: GivenRigs) -> tuple[Document, dict[
             raise SettingError(f"{said[0]} is for a rig on the command line; name one")
     else:
         document["creature"]["rig"] = _known(given.rig, rigs)
-        document["gait"] = None
+        document["creature"]["limit"] = document["gait"] = None
     if given.rig is not None or said:
         lists = {
             key: None if value is None else list(value)

@@ -11,7 +11,7 @@ from polypod.environment.scene import Scene, read_scene
 from polypod.errors import SceneError, SettingError
 from polypod.studio.document import Document, default_document, judged
 from polypod.studio.places import Ground, yaw_of
-from polypod.studio.toml_text import table
+from polypod.studio.toml_text import table, tables_by_name
 
 # What a scene's [[creature]] takes over from a document's creature.
 NAMED = ("leg", "spine", "forward", "height", "body_height")
@@ -36,7 +36,10 @@ def scene_text(document: Document) -> str:
             )
         parts.append(table("[terrain]", terrain))
     parts += [table("[[obstacle]]", one) for one in document["obstacle"]]
-    parts += [table("[[creature]]", one) for one in _creatures(document)]
+    first, *others = _creatures(document)
+    parts.append(table("[[creature]]", first))
+    parts += tables_by_name("creature.limit", document["creature"]["limit"] or {})
+    parts += [table("[[creature]]", one) for one in others]
     return "\n".join(parts)
 
 
@@ -95,6 +98,7 @@ def _take_creatures(document: Document, scene: Scene) -> None:
             "forward": spec.forward,
             "height": spec.height,
             "body_height": spec.body_height,
+            "limit": spec.limit,
         }
         document["command"]["speed"] = spec.speed
         document["command"]["heading"] = spec.heading or 0.0

@@ -22,7 +22,7 @@ from polypod.studio.document import CREATURE, Document
 from polypod.studio.places import Ground
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.saved import document_of_scene, scene_text
-from polypod.studio.toml_text import key_text, table
+from polypod.studio.toml_text import table, tables_by_name
 
 # Keys of a terrain that name files.
 FILES = ("heightmap", "tiles", "mesh", "water")
@@ -150,11 +150,13 @@ def creature_toml(creature: Mapping[str, Any], rigs: GivenRigs) -> str:
         # It came from such a file, which says more than the document does.
         top = tomllib.loads(file.read_text(encoding="utf-8"))
         inner = {key: top.pop(key) for key in ("body", "foot", "limit") if key in top}
-    top |= {key: creature[key] for key in CREATURE[1:] if creature[key] is not None}
+    said = {key: creature[key] for key in CREATURE[1:] if creature[key] is not None}
+    if "limit" in said:
+        inner["limit"] = said.pop("limit")
+    top |= said
     parts = [table("", top)]
     if "body" in inner:
         parts.append(table("[body]", inner["body"]))
     for kind in ("foot", "limit"):
-        for name, values in inner.get(kind, {}).items():
-            parts.append(table(f"[{kind}.{key_text(name)}]", values))
+        parts += tables_by_name(kind, inner.get(kind, {}))
     return "\n".join(parts)

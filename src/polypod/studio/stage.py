@@ -12,10 +12,10 @@ from polypod.gait.build import Build
 from polypod.gait.follow import PINNED, next_rung
 from polypod.gait.library import make_gait
 from polypod.herd import Herd
-from polypod.morphology.load import load_rig
-from polypod.morphology.types import Morphology
+from polypod.relimit import relimit
 from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
+from polypod.studio.joint_limits import LimitedRig, why_not_standing
 from polypod.studio.judge import Question
 from polypod.studio.places import Ground, change_of, make_place, obstacle_poses
 from polypod.studio.wandering import Wanderers, stand_beside
@@ -33,6 +33,7 @@ class Applied(NamedTuple):
 
     creature: bool  # who walks: the skins are others
     ground: bool
+    limits: bool  # how far the joints of the one who walks turn
 
 
 class Stage:
@@ -42,6 +43,7 @@ class Stage:
         document: judged; what is asked for now.
         world: where it is walked.
         herds: the first creature's, then the crowd's kinds.
+        rig: the first creature's, as it is without what is asked of its joints.
     """
 
     def __init__(
@@ -49,7 +51,7 @@ class Stage:
     ) -> None:
         self.find_rig = find_rig
         self.given: dict[str, Ground] = dict(given or {})
-        self._rigs: dict[str, Morphology] = {}
+        self._rigs: dict[str, LimitedRig] = {}
         self._build(document)
         self.document = document
 
@@ -65,14 +67,19 @@ class Stage:
             PolypodError: it asks for what cannot be; the stage is as it was.
         """
         before = self.document
+        creature = _who_walks(document) != _who_walks(before)
         applied = Applied(
-            creature=any(document[key] != before[key] for key in ("creature", "crowd")),
+            creature=creature,
             ground=document["terrain"] != before["terrain"],
+            limits=not creature and document["creature"] != before["creature"],
         )
         if applied.creature or applied.ground:
             self._build(document, stays=not applied.creature)
         else:
-            ask(self.herd, document, before)
+            if applied.limits:
+                self._limit(document)
+            else:
+                ask(self.herd, document, before)
             if document["obstacle"] != before["obstacle"]:
                 self._change_obstacles(before, document)
         self.document = document
@@ -129,28 +136,48 @@ class Stage:
         length = tables.hip_height if tables.upright else tables.leg_length
         return self.herd.ladder[next_rung(PINNED, speed, length, tables.ladder.limit)]
 
-    def _rig(self, asked: Mapping[str, Any]) -> Morphology:
-        """Return a creature, read once for all that is said of it."""
-        key = repr(sorted(asked.items()))
+    def _rig(self, asked: Mapping[str, Any]) -> LimitedRig:
+        """Return a creature, read once for all that is said of it but its joints' limits."""
+        key = repr(sorted((key, value) for key, value in asked.items() if key != "limit"))
         if key not in self._rigs:
-            morphology = load_rig(
-                self.find_rig(asked["rig"]),
-                legs=asked.get("leg"),
-                spine=asked.get("spine"),
-                forward=asked.get("forward"),
-                height=asked.get("height"),
-                body_height=asked.get("body_height"),
-            )
+            rig = LimitedRig(self.find_rig(asked["rig"]), asked)
             if len(self._rigs) >= 8:
                 self._rigs.pop(next(iter(self._rigs)))
-            self._rigs[key] = morphology
+            self._rigs[key] = rig
         return self._rigs[key]
+
+    def _limit(self, document: Document) -> None:
+        """Let the first creature go on with other limits of its joints.
+
+        Raises:
+            PolypodError: it cannot stand with them, or they name no joint; nothing has changed.
+        """
+        herd = self.herd
+        before = herd.morphology, herd.tables
+        angles = herd.state.spine_angle.copy()
+        limited = self.rig.limited(document["creature"].get("limit"))
+        try:
+            relimit(herd, limited)
+        except SettingError:
+            raise SettingError(why_not_standing(herd, limited)) from None
+        try:
+            # What has a default of the creature's own may have another one now.
+            other = dict.fromkeys(document["command"], "another")
+            ask(herd, document, {**self.document, "command": other})
+        except SettingError as error:
+            herd.take_limits(*before)
+            herd.state.spine_angle[:] = angles
+            raise SettingError(f"with these limits {error}") from None
 
     def _build(self, document: Document, *, stays: bool = False) -> None:
         """Make the world anew; a creature that `stays` goes on from where it is."""
-        morphology = self._rig(document["creature"])
+        rig = self._rig(document["creature"])
+        morphology = rig.limited(document["creature"].get("limit"))
         gait_of(document, morphology)
-        kinds = [(self._rig({"rig": kind["rig"]}), kind["count"]) for kind in document["crowd"]]
+        kinds = [
+            (self._rig({"rig": kind["rig"]}).limited(None), kind["count"])
+            for kind in document["crowd"]
+        ]
         world = World(make_place(document, self.given))
         at, heading = (0.0, 0.0), float(document["command"]["heading"])
         if stays:
@@ -168,6 +195,7 @@ class Stage:
         ask(first, document, None)
         crowd = stand_beside(world, first, kinds)
         self.world = world
+        self.rig = rig
         self.herds = [first, *crowd]
         self.wanderers = Wanderers(crowd, first)
 
@@ -175,3 +203,8 @@ class Stage:
         change = change_of(before, document, self.world.environment, self.given)
         if change.environment is not None:
             self.world.change_place(change.environment, change.renumbered)
+
+
+def _who_walks(document: Document) -> tuple[Any, ...]:
+    """Return what of a document makes other creatures of those who walk."""
+    return {**document["creature"], "limit": None}, document["crowd"]

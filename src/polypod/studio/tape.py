@@ -44,8 +44,13 @@ class Tape:
         return self._bytes > MOST_BYTES or self._joints * (len(self.frames) + 1) > MOST_JOINT_FRAMES
 
     def fits(self, world: World) -> bool:
-        """Return whether a world is still the one that is recorded, with as many obstacles."""
-        return world is self.world and len(world.environment.obstacles) == self._obstacles
+        """Return whether a world is still the one that is recorded.
+
+        It has as many obstacles, and its creatures the limits that they had.
+        """
+        same = all(herd.morphology is recorder.morphology for herd, _, recorder in self._recorders)
+        alike = len(world.environment.obstacles) == self._obstacles
+        return world is self.world and alike and same
 
     def add(self, frame: bytes) -> None:
         """Keep a frame: its bytes, and what every creature does now."""

@@ -31,6 +31,11 @@ def table(header: str, values: Mapping[str, Any]) -> str:
     return "\n".join([*([header] if header else []), *lines, ""])
 
 
+def tables_by_name(header: str, tables: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Return a table for each name, under a header that is common to all: `[header.NAME]`."""
+    return [table(f"[{header}.{key_text(name)}]", values) for name, values in tables.items()]
+
+
 def _letter(c: str) -> str:
     if c in '"\\':
         return f"\\{c}"
