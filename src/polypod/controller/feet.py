@@ -18,6 +18,7 @@ from polypod.crowd.legs import add_company
 from polypod.environment.placing import own_point
 from polypod.environment.table import surface_at
 from polypod.footprints.plan import plan_step
+from polypod.footprints.scratch import TALLY_DIRECT, TALLY_PLACES
 from polypod.footprints.settings import StepRequest, landing_time, placed_shape
 from polypod.math.quat import store_quat
 from polypod.math.vec3 import Vec3, load_vec3, normalized, store_vec3
@@ -49,6 +50,24 @@ def preferred_footprint(
     x = middle.x + offset.x + math.sin(middle.heading) * ahead
     z = middle.z + offset.z + math.cos(middle.heading) * ahead
     return Vec3(x, state.foot[c, k, 1], z)
+
+
+@kernel
+def note_seen(k: int, found: bool, score: float, scratch: Any) -> None:
+    """Keep the places that were just looked at for a foot.
+
+    A direct swing that was good enough looked at one, the path's end, whose `score` is the pair's.
+    """
+    seen, plan = scratch.seen, scratch.plan
+    if found and plan.tally[TALLY_DIRECT] != 0:
+        seen.count[k] = 1
+        seen.score[k, 0] = score
+        store_vec3(seen.place[k, 0], load_vec3(scratch.path.point[scratch.path.count[0] - 1]))
+        return
+    seen.count[k] = plan.tally[TALLY_PLACES]
+    for place in range(seen.count[k]):
+        seen.score[k, place] = plan.found.score[place]
+        store_vec3(seen.place[k, place], load_vec3(plan.found.place[place]))
 
 
 @kernel
@@ -127,7 +146,9 @@ def plan_foot(
             legs.foot_behind[k],
             attempt == 0,
         )
-        found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
+        found, score = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
+        if scratch.seen.who[0] == c:
+            note_seen(k, found, score, scratch)
         if found:
             break
     if not found:

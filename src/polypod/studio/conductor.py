@@ -17,6 +17,7 @@ from polypod.studio.meshes import ground_reach, pack_ground, pack_skin
 from polypod.studio.messages import (
     clock_message,
     document_message,
+    files_message,
     kinds_message,
     tape_message,
     verdict_message,
@@ -67,6 +68,7 @@ class Conductor:
             welcome_message(self),
             facts_of(self.stage.herd),
             kinds_message(self),
+            files_message(self),
             document_message(self),
             clock_message(self),
             verdict_message(self._check),
@@ -80,6 +82,10 @@ class Conductor:
     def tell_clock(self) -> None:
         """Say how time goes."""
         self.say(clock_message(self))
+
+    def tell_files(self) -> None:
+        """Say which meshes and grounds of files there are."""
+        self.say(files_message(self))
 
     # Time.
 
@@ -186,6 +192,8 @@ class Conductor:
             self.history.note(before, gesture)
         if applied.creature or applied.ground:
             self._begin_anew(applied.creature)
+        # Before the document that may name them.
+        self.tell_files()
         self.say(document_message(self))
         if any(document[k] != before[k] for k in ("creature", "gait", "command")):
             self._judge.ask(self.stage.question())

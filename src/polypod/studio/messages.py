@@ -23,7 +23,6 @@ def welcome_message(conductor: Conductor) -> Message:
         "version": __version__,
         "rigs": list(BUILT_IN),
         "generators": {name: generator_keys(name) for name in GENERATORS},
-        "given": list(conductor.stage.given),
         "fps": RATE,
     }
 
@@ -50,6 +49,12 @@ def document_message(conductor: Conductor) -> Message:
         "can_undo": conductor.history.can_undo,
         "can_redo": conductor.history.can_redo,
     }
+
+
+def files_message(conductor: Conductor) -> Message:
+    """Say which meshes and grounds of files there are."""
+    files = conductor.stage.files
+    return {"is": "files", "meshes": files.mesh_names, "grounds": files.ground_names}
 
 
 def clock_message(conductor: Conductor) -> Message:

@@ -14,6 +14,7 @@ from polypod.errors import PolypodError
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
 from polypod.studio.stage import STEP, FindRig, Stage
+from polypod.studio.world_files import WorldFiles
 
 Result = TypeVar("Result")
 
@@ -40,10 +41,8 @@ def fault(error: Exception) -> str:
 class Runner:
     """Walks a document's world in a thread of its own; other threads talk to it by its queue."""
 
-    def __init__(
-        self, document: Document, find_rig: FindRig, given: dict[str, Any] | None = None
-    ) -> None:
-        self._opening = (document, find_rig, given)
+    def __init__(self, document: Document, find_rig: FindRig, files: WorldFiles) -> None:
+        self._opening = (document, find_rig, files)
         self._work: deque[Callable[[], None]] = deque()
         self._woken = threading.Condition()
         self._listeners: list[Callable[[Event], None]] = []
@@ -137,9 +136,9 @@ class Runner:
             self._woken.notify()
 
     def _run(self) -> None:
-        document, find_rig, given = self._opening
+        document, find_rig, files = self._opening
         try:
-            stage = Stage(document, find_rig, given)
+            stage = Stage(document, find_rig, files)
         except PolypodError as error:
             self.failed = error
             self.ready.set()

@@ -16,8 +16,9 @@ from polypod.morphology.types import Morphology
 from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
 from polypod.studio.judge import Question
-from polypod.studio.places import Ground, change_of, make_place, obstacle_poses
+from polypod.studio.places import change_of, make_place, obstacle_poses
 from polypod.studio.wandering import Wanderers, stand_beside
+from polypod.studio.world_files import WorldFiles
 from polypod.world import World
 
 # Where a rig's name leads: a built-in's name as it is, an upload's to its file; else SettingError.
@@ -43,11 +44,9 @@ class Stage:
         herds: the first creature's, then the crowd's kinds.
     """
 
-    def __init__(
-        self, document: Document, find_rig: FindRig, given: Mapping[str, Ground] | None = None
-    ) -> None:
+    def __init__(self, document: Document, find_rig: FindRig, files: WorldFiles) -> None:
         self.find_rig = find_rig
-        self.given: dict[str, Ground] = dict(given or {})
+        self.files = files
         self._rigs: dict[str, Morphology] = {}
         self._build(document)
         self.document = document
@@ -150,7 +149,7 @@ class Stage:
         morphology = self._rig(document["creature"])
         gait_of(document, morphology)
         kinds = [(self._rig({"rig": kind["rig"]}), kind["count"]) for kind in document["crowd"]]
-        world = World(make_place(document, self.given))
+        world = World(make_place(document, self.files))
         at, heading = (0.0, 0.0), float(document["command"]["heading"])
         if stays:
             state = self.herd.state
@@ -171,6 +170,6 @@ class Stage:
         self.wanderers = Wanderers(crowd, first)
 
     def _change_obstacles(self, before: Document, document: Document) -> None:
-        change = change_of(before, document, self.world.environment, self.given)
+        change = change_of(before, document, self.world.environment, self.files)
         if change.environment is not None:
             self.world.change_place(change.environment, change.renumbered)
