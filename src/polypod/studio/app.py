@@ -24,6 +24,7 @@ from polypod.studio.exports import EXPORTS, Export
 from polypod.studio.gate import Gate
 from polypod.studio.guard import TooLargeError, inline_hashes, parse_json, read_bounded
 from polypod.studio.link import Hub
+from polypod.studio.messages import files_message
 from polypod.studio.rig_limits import LARGEST_FILE
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.scene_folder import LARGEST_SCENE, ZIP, MissingFilesError
@@ -104,7 +105,7 @@ class Studio:
         name = request.query_params.get("name", "mesh.glb")
         await self._use()
         found = await self._judge(partial(self.files.take, data, name))
-        await self._between_frames(lambda conductor: conductor.tell_files())
+        await self._between_frames(lambda conductor: conductor.say(files_message(conductor)))
         return JSONResponse(found)
 
     async def surface(self, request: Request) -> Response:

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import copy
+import io
 import tempfile
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from polypod.errors import SettingError
-from polypod.report.record import Recording, write_record
+from polypod.report.record import MEMBER_DATE, write_record
 from polypod.rigs.export import glb_bytes
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.scenes import creature_toml, scene_toml, scene_zip
-from polypod.studio.tape import NOTHING
+from polypod.studio.tape import NOTHING, Walk
 from polypod.studio.world_files import WorldFiles
 
 
@@ -27,7 +31,7 @@ class Export(NamedTuple):
     write: Callable[[Any, GivenRigs, WorldFiles], bytes]
 
 
-def _walk(conductor: Conductor, creature: int) -> Recording:
+def _walk(conductor: Conductor, creature: int) -> Walk:
     if conductor.tape is None:
         raise SettingError(NOTHING)
     return conductor.tape.walk(creature)
@@ -37,14 +41,19 @@ def _document(conductor: Conductor, creature: int) -> Document:
     return copy.deepcopy(conductor.stage.document)
 
 
-def _glb(walk: Recording, rigs: GivenRigs, files: WorldFiles) -> bytes:
-    return glb_bytes(walk)
+def _glb(walk: Walk, rigs: GivenRigs, files: WorldFiles) -> bytes:
+    return glb_bytes(walk.recording)
 
 
-def _npz(walk: Recording, rigs: GivenRigs, files: WorldFiles) -> bytes:
+def _npz(walk: Walk, rigs: GivenRigs, files: WorldFiles) -> bytes:
     with tempfile.TemporaryDirectory(prefix="polypod-studio-") as folder:
         file = Path(folder) / "walk.npz"
-        write_record(walk, file)
+        write_record(walk.recording, file)
+        # What a walk of the command line does not need: there all obstacles stand all the time.
+        there = io.BytesIO()
+        np.lib.format.write_array(there, walk.there, version=(1, 0), allow_pickle=False)
+        with zipfile.ZipFile(file, "a", zipfile.ZIP_STORED) as archive:
+            archive.writestr(zipfile.ZipInfo("obstacle_there.npy", MEMBER_DATE), there.getvalue())
         return file.read_bytes()
 
 

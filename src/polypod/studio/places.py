@@ -97,21 +97,28 @@ def renumbered(
 ) -> tuple[int, ...]:
     """Return which obstacle after a change each one before is, -1: it is gone.
 
-    Unchanged ones are found again, in their order; one that was changed is the one at its number,
-    as long as nothing was taken out. What follows them, to the `total`, is the terrain's own.
+    One that was changed is the one at its number, unless that is another one that was there before.
+    What follows them, to the `total`, is the terrain's own.
     """
-    numbers = []
-    taken: set[int] = set()
-    same_length = len(before) <= len(after)
-    for i, one in enumerate(before):
-        if same_length:
-            numbers.append(i)
-            continue
-        found = next((j for j, other in enumerate(after) if j not in taken and other == one), -1)
-        taken.add(found)
-        numbers.append(found)
     shift = len(after) - len(before)
-    return (*numbers, *(i + shift for i in range(len(before), total)))
+    return (*_found_again(before, after), *(i + shift for i in range(len(before), total)))
+
+
+def on_other_ground(
+    before: Sequence[dict[str, Any]], after: Sequence[dict[str, Any]], total: int
+) -> tuple[int, ...]:
+    """Return the same where the terrain is another: what was its own, to the `total`, is gone."""
+    return (*_found_again(before, after), *[-1] * (total - len(before)))
+
+
+def _found_again(before: Sequence[dict[str, Any]], after: Sequence[dict[str, Any]]) -> list[int]:
+    found = [i if i < len(after) and one == after[i] else -1 for i, one in enumerate(before)]
+    free = [j for j in range(len(after)) if j >= len(before) or found[j] != j]
+    for i, one in enumerate(before):
+        if found[i] < 0:
+            found[i] = next((j for j in free if after[j] == one), -1)
+            free = [j for j in free if j != found[i]]
+    return [i if found[i] < 0 and i in free else found[i] for i in range(len(before))]
 
 
 def obstacle_poses(environment: Environment, shown: int) -> FloatArray:

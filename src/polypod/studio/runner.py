@@ -119,11 +119,11 @@ class Runner:
 
     def skin(self, number: int) -> bytes | None:
         """Return a skin by its number, as named arrays."""
-        return None if self.conductor is None else self.conductor.skins.get(number)
+        return None if self.conductor is None else self.conductor.drawn.skins.get(number)
 
     def ground(self, number: int) -> bytes | None:
         """Return the ground by its number, as named arrays."""
-        return None if self.conductor is None else self.conductor.grounds.get(number)
+        return None if self.conductor is None else self.conductor.drawn.grounds.get(number)
 
     @property
     def _conductor(self) -> Conductor:

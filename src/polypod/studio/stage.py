@@ -16,7 +16,7 @@ from polypod.morphology.types import Morphology
 from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
 from polypod.studio.judge import Question
-from polypod.studio.places import change_of, make_place, obstacle_poses
+from polypod.studio.places import change_of, make_place, obstacle_poses, on_other_ground
 from polypod.studio.wandering import Wanderers, stand_beside
 from polypod.studio.world_files import WorldFiles
 from polypod.world import World
@@ -33,6 +33,7 @@ class Applied(NamedTuple):
 
     creature: bool  # who walks: the skins are others
     ground: bool
+    renumbered: tuple[int, ...] | None  # for each obstacle before its number now, -1: gone
 
 
 class Stage:
@@ -45,6 +46,7 @@ class Stage:
     """
 
     def __init__(self, document: Document, find_rig: FindRig, files: WorldFiles) -> None:
+        self.world: World
         self.find_rig = find_rig
         self.files = files
         self._rigs: dict[str, Morphology] = {}
@@ -63,18 +65,20 @@ class Stage:
             PolypodError: it asks for what cannot be; the stage is as it was.
         """
         before = self.document
-        applied = Applied(
-            creature=any(document[key] != before[key] for key in ("creature", "crowd")),
-            ground=document["terrain"] != before["terrain"],
-        )
-        if applied.creature or applied.ground:
-            self._build(document, stays=not applied.creature)
+        creature = any(document[key] != before[key] for key in ("creature", "crowd"))
+        ground = document["terrain"] != before["terrain"]
+        numbers: tuple[int, ...] | None = None
+        if creature or ground:
+            total = len(self.world.environment.obstacles)
+            self._build(document, stays=not creature)
+            if not creature:
+                numbers = on_other_ground(before["obstacle"], document["obstacle"], total)
         else:
             ask(self.herd, document, before)
             if document["obstacle"] != before["obstacle"]:
-                self._change_obstacles(before, document)
+                numbers = self._change_obstacles(before, document)
         self.document = document
-        return applied
+        return Applied(creature, ground, numbers)
 
     def restart(self) -> None:
         """Stand all creatures where they began."""
@@ -149,9 +153,13 @@ class Stage:
         morphology = self._rig(document["creature"])
         gait_of(document, morphology)
         kinds = [(self._rig({"rig": kind["rig"]}), kind["count"]) for kind in document["crowd"]]
-        world = World(make_place(document, self.files))
+        place = make_place(document, self.files)
+        world = World(place)
         at, heading = (0.0, 0.0), float(document["command"]["heading"])
         if stays:
+            # Time goes on too: what moves is where it would be.
+            world.time = self.world.time
+            place.advance(world.time)
             state = self.herd.state
             at = (float(state.position[0, 0]), float(state.position[0, 2]))
             heading = float(state.heading[0])
@@ -169,7 +177,9 @@ class Stage:
         self.herds = [first, *crowd]
         self.wanderers = Wanderers(crowd, first)
 
-    def _change_obstacles(self, before: Document, document: Document) -> None:
+    def _change_obstacles(self, before: Document, document: Document) -> tuple[int, ...] | None:
         change = change_of(before, document, self.world.environment, self.files)
-        if change.environment is not None:
-            self.world.change_place(change.environment, change.renumbered)
+        if change.environment is None:
+            return None
+        self.world.change_place(change.environment, change.renumbered)
+        return change.renumbered
