@@ -41,7 +41,9 @@ def fault(error: Exception) -> str:
 class Runner:
     """Walks a document's world in a thread of its own; other threads talk to it by its queue."""
 
-    def __init__(self, document: Document, find_rig: FindRig, files: WorldFiles) -> None:
+    def __init__(
+        self, document: Document, find_rig: FindRig, files: WorldFiles | None = None
+    ) -> None:
         self._opening = (document, find_rig, files)
         self._work: deque[Callable[[], None]] = deque()
         self._woken = threading.Condition()

@@ -45,10 +45,12 @@ class Stage:
         herds: the first creature's, then the crowd's kinds.
     """
 
-    def __init__(self, document: Document, find_rig: FindRig, files: WorldFiles) -> None:
+    def __init__(
+        self, document: Document, find_rig: FindRig, files: WorldFiles | None = None
+    ) -> None:
         self.world: World
         self.find_rig = find_rig
-        self.files = files
+        self.files = files or WorldFiles()
         self._rigs: dict[str, Morphology] = {}
         self._build(document)
         self.document = document

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from polypod.errors import PolypodError, SceneError
@@ -15,9 +16,10 @@ MOST, MOST_BYTES = 512, 256 << 20
 class WaitingFiles:
     """Files by their names. Its methods may be called from any thread."""
 
-    def __init__(self, folder: Path) -> None:
-        """Prepare; `folder` is theirs."""
-        self._folder = folder
+    def __init__(self, new_folder: Callable[[], Path]) -> None:
+        """Prepare; `new_folder` makes a folder for them."""
+        self._new_folder = new_folder
+        self._folder: Path | None = None
         self._files: dict[str, Path] = {}
         self._lock = threading.Lock()
 
@@ -30,7 +32,8 @@ class WaitingFiles:
         """
         title = clean_name(name, Path(name).suffix.lower())
         with self._lock:
-            self._folder.mkdir(exist_ok=True)
+            if self._folder is None:
+                self._folder = self._new_folder()
             file = self._folder / title
             held = sum(one.stat().st_size for one in self._files.values() if one != file)
             if len(self._files) >= MOST or held + len(data) > MOST_BYTES:

@@ -55,22 +55,28 @@ class WorldFiles:
     """The files of the world. Its methods may be called from any thread."""
 
     def __init__(self) -> None:
-        self._folder = Path(tempfile.mkdtemp(prefix="polypod-studio-"))
         self._meshes: dict[str, Mesh] = {}  # the one used last is the last
         self._solids: dict[tuple[str, str], Obstacle] = {}
         self._surfaces: dict[str, bytes] = {}
         self._grounds: dict[str, GivenGround] = {}
-        self.waiting = WaitingFiles(self._folder / "waiting")
+        self.waiting = WaitingFiles(self.new_folder)
         self._in_use: frozenset[str] = frozenset()
+        self._folder: Path | None = None  # made when something has to lie in it
         self._lock = threading.RLock()
 
     def close(self) -> None:
         """Delete all files that were taken in."""
-        shutil.rmtree(self._folder, ignore_errors=True)
+        with self._lock:
+            if self._folder is not None:
+                shutil.rmtree(self._folder, ignore_errors=True)
+            self._folder = None
 
     def new_folder(self) -> Path:
         """Return a new folder of the studio's own."""
-        return Path(tempfile.mkdtemp(prefix="scene-", dir=self._folder))
+        with self._lock:
+            if self._folder is None:
+                self._folder = Path(tempfile.mkdtemp(prefix="polypod-studio-"))
+            return Path(tempfile.mkdtemp(prefix="scene-", dir=self._folder))
 
     def use(self, names: Iterable[str]) -> None:
         """Say which meshes and grounds the document has: they stay."""
