@@ -221,7 +221,7 @@ class Scene {
 
   // Where a new thing goes, [x, z]: on the ground in the view's middle, but not under the creature;
   // or ahead of it, where that is in the picture. The thing reaches `around` [m] about it.
-  placeAhead(around) {
+  placeAhead(around = 0) {
     const { centre, size } = this.cameras;
     const least = AHEAD * size + Math.max(around - SMALL * size, 0);
     this.rays.at(0, 0);
