@@ -20,6 +20,7 @@ from polypod.crowd.company import Company, make_company
 from polypod.crowd.legs import COMPANY_SEGMENTS
 from polypod.errors import SettingError
 from polypod.footprints.plan import PlanScratch, make_plan_scratch
+from polypod.footprints.scratch import SeenPlaces, seen_places
 from polypod.footprints.settings import PlanSettings
 from polypod.gait.follow import PINNED, ladder_names
 from polypod.morphology.types import BoolArray, FloatArray, IntArray, Morphology
@@ -44,6 +45,7 @@ class Scratch(NamedTuple):
     """Working memory of one thread."""
 
     plan: PlanScratch
+    seen: SeenPlaces
     path: PathRow  # the path just planned, before it is taken
     hull: FloatArray  # [points, 2]
     progress: FloatArray  # [K]
@@ -117,6 +119,7 @@ class Herd:
         self._memory: list[Scratch] = []
         self._scratch: list[Scratch] = []
         self._company = make_company([])
+        self._watched = -1
 
     def own_step_height(self, settings: Settings) -> float:
         """Return how high, m, feet are lifted over level ground where nobody says how high."""
@@ -256,12 +259,16 @@ class Herd:
             legs = self.morphology.legs
             feet, most = legs.joint.shape
             path = path_store(1, 1)
+            plan = make_plan_scratch(
+                self.plan_settings,
+                make_legs_ahead(self.tables.ik, legs.section_radius, legs.foot_joint),
+                COMPANY_SEGMENTS,
+            )
+            seen = seen_places(feet, len(plan.found.score))
+            seen.who[0] = self._watched
             scratch = Scratch(
-                plan=make_plan_scratch(
-                    self.plan_settings,
-                    make_legs_ahead(self.tables.ik, legs.section_radius, legs.foot_joint),
-                    COMPANY_SEGMENTS,
-                ),
+                plan=plan,
+                seen=seen,
                 path=PathRow(*(array[0, 0] for array in path)),
                 hull=make_hull_scratch(feet),
                 progress=np.zeros(feet),
@@ -287,7 +294,23 @@ class Herd:
             self._scratch.append(by_reference(scratch))
         return self._scratch[worker]
 
-    def planned(self, worker: int = 0) -> PlanScratch:
-        """Return what a thread looked at when it last planned a footprint, to be shown."""
-        self.scratch(worker)
-        return self._memory[worker].plan
+    def watch(self, creature: int) -> None:
+        """Keep from now on what the feet of one creature look at, to be shown; -1: nobody's."""
+        if creature == self._watched:
+            return
+        self._watched = creature
+        for scratch in self._memory:
+            scratch.seen.who[0] = creature
+            scratch.seen.count[:] = 0
+
+    def seen(self, foot: int) -> tuple[FloatArray, FloatArray]:
+        """Return the places [N, 3] looked at when a foot of the watched one was planned last.
+
+        With their scores [N]; none before it was planned. Where the direct swing to the preferred
+        place was good enough that place is the only one.
+        """
+        for scratch in self._memory:
+            count = int(scratch.seen.count[foot])
+            if count:
+                return scratch.seen.place[foot, :count], scratch.seen.score[foot, :count]
+        return np.zeros((0, 3)), np.zeros(0)

@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 
-# A file dropped from the desktop, anywhere on the page.
+# Files dropped from the desktop, anywhere on the page.
 DROP = """
-([name, content]) => {
-  const bytes = Uint8Array.from(atob(content), (letter) => letter.charCodeAt(0));
+(files) => {
   const dataTransfer = new DataTransfer();
-  dataTransfer.items.add(new File([bytes], name));
+  for (const [name, content] of files) {
+    const bytes = Uint8Array.from(atob(content), (letter) => letter.charCodeAt(0));
+    dataTransfer.items.add(new File([bytes], name));
+  }
   for (const kind of ["dragover", "drop"]) {
     const event = new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true });
     document.querySelector("#scene").dispatchEvent(event);
@@ -24,7 +26,13 @@ DROP = """
 
 def drop_file(tab: Any, name: str, content: bytes) -> None:
     """Drop a file on the scene."""
-    tab.page.evaluate(DROP, [name, base64.b64encode(content).decode()])
+    drop_files(tab, {name: content})
+
+
+def drop_files(tab: Any, files: dict[str, bytes]) -> None:
+    """Drop files on the scene, all at once."""
+    listed = [[name, base64.b64encode(content).decode()] for name, content in files.items()]
+    tab.page.evaluate(DROP, listed)
 
 
 def name_of(tab: Any, foot: int) -> str:

@@ -17,6 +17,7 @@ from polypod.studio.app import make_app
 from polypod.studio.document import default_document
 from polypod.studio.outbox import Telling
 from polypod.studio.rigs_given import GivenRigs
+from polypod.studio.world_files import WorldFiles
 
 PORT = 8571
 TOKEN = "the-token"
@@ -31,10 +32,13 @@ class FakeRunner:
         self.orders: list[dict[str, Any]] = []
         self.listeners: list[Callable[[Any], None]] = []
         self.seen: list[frozenset[str]] = []
+        self.said: list[dict[str, Any]] = []
         self.refuses: str | None = None
         self.silent = False
         stage = SimpleNamespace(document=default_document())
-        self.conductor = SimpleNamespace(stage=stage, tape=None, take=self._take)
+        self.conductor = SimpleNamespace(
+            stage=stage, tape=None, take=self._take, say=self.said.append
+        )
 
     def start(self) -> None: ...
 
@@ -89,7 +93,9 @@ class Served:
     def __init__(self) -> None:
         self.runner = FakeRunner()
         self.rigs = GivenRigs()
-        self.app = make_app(self.runner, self.rigs, TOKEN, PORT)
+        self.files = WorldFiles()
+        self.runner.conductor.stage.files = self.files
+        self.app = make_app(self.runner, self.rigs, self.files, TOKEN, PORT)
         self.client = TestClient(self.app, base_url=HOME)
 
     @contextmanager
@@ -113,3 +119,4 @@ def served() -> Iterator[Served]:
             yield studio
     finally:
         studio.rigs.close()
+        studio.files.close()

@@ -64,7 +64,9 @@ def hear(runner: Runner, kind: str, count: int) -> list[Any]:
 
 def test_a_new_tab_is_told_all_it_needs(runner: Runner) -> None:
     said = [message["is"] for message in runner.greeting()]
-    assert said == ["welcome", "creature", "kinds", "document", "clock", "verdict", "tape"]
+    assert said == [
+        "welcome", "creature", "kinds", "files", "document", "clock", "verdict", "tape", "backdrop",
+    ]  # fmt: skip
     kinds = runner.greeting()[2]
     assert runner.skin(kinds["kinds"][0]["skin"])
     assert runner.ground(kinds["ground"])
@@ -123,7 +125,7 @@ def test_what_is_recorded_is_scrubbed_and_exported_as_it_was(runner: Runner) -> 
     assert give(runner, do="record", on=True) is None
     assert give(runner, do="clock", steps=30) is None
     assert give(runner, do="record", on=False) is None
-    walk = runner.call(lambda conductor: conductor.tape.walk(0)).result(PATIENCE)
+    walk = runner.call(lambda conductor: conductor.tape.walk(0)).result(PATIENCE).recording
     with pytest.raises(SettingError, match="no creature 1; 1 were recorded"):
         runner.call(lambda conductor: conductor.tape.walk(1)).result(PATIENCE)
     assert len(walk.time) == 31

@@ -9,9 +9,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from polypod.environment.scene import read_scene
-from polypod.errors import SceneError, SettingError
 from polypod.studio.document import default_document, judged
 from polypod.studio.saved import document_of_scene, scene_text
+from polypod.studio.world_files import WorldFiles
 
 numbers = st.floats(-50.0, 50.0).map(lambda v: round(v, 3))
 sizes = st.floats(0.01, 5.0).map(lambda v: round(v, 3))
@@ -45,8 +45,9 @@ def test_a_saved_scene_opens_as_the_same_place(
     document["terrain"] = {"generator": "hills", "relief": 0.3, "seed": 4}
     file = tmp_path / "scene.toml"
     file.write_text(scene_text(judged(document)), encoding="utf-8")
-    opened, given_terrain = document_of_scene(file, default_document())
-    assert not given_terrain
+    files = WorldFiles()
+    opened = document_of_scene(file, default_document(), files, own=False)
+    assert files.ground_names == []
     for key in ("creature", "terrain", "path", "crowd"):
         assert opened[key] == document[key], key
     assert opened["command"]["speed"] == 0.25
@@ -56,34 +57,11 @@ def test_a_saved_scene_opens_as_the_same_place(
         assert one == {k: v for k, v in other.items() if k != "yaw"}
 
 
-def test_a_terrain_of_a_file_stays_with_its_scene(tmp_path: Path) -> None:
-    import numpy as np
-
-    np.save(tmp_path / "hills.npy", np.zeros((4, 4)))
-    file = tmp_path / "valley.toml"
-    file.write_text('[terrain]\nheightmap = "hills.npy"\ncell = 1.0\n', encoding="utf-8")
-    document, given_terrain = document_of_scene(file, default_document())
-    assert document["terrain"] == {"given": "valley"}
-    assert list(given_terrain) == ["valley"]
-    with pytest.raises(SettingError, match="valley"):
-        scene_text(document)
-
-
 def test_a_scene_with_creatures_brings_them(tmp_path: Path) -> None:
     file = tmp_path / "scene.toml"
     text = '[[creature]]\nrig = "wolf"\nspeed = 0.8\ncount = 3\n[[creature]]\nrig = "ant"\n'
     file.write_text(text, encoding="utf-8")
-    document, _ = document_of_scene(file, default_document())
+    document = document_of_scene(file, default_document(), WorldFiles(), own=False)
     assert document["creature"]["rig"] == "wolf"
     assert document["crowd"] == [{"rig": "wolf", "count": 2}, {"rig": "ant", "count": 1}]
     assert len(read_scene(file).creatures) == 2
-
-
-def test_a_mesh_is_refused_in_words(tmp_path: Path) -> None:
-    (tmp_path / "rock.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\n"
-                                       "f 1 4 3\nf 2 3 4\n", encoding="utf-8")  # fmt: skip
-    file = tmp_path / "scene.toml"
-    file.write_text('[[obstacle]]\nshape = "mesh"\nfile = "rock.obj"\nposition = [0, 0, 2]\n',
-                    encoding="utf-8")  # fmt: skip
-    with pytest.raises(SceneError, match="mesh"):
-        document_of_scene(file, default_document())

@@ -18,9 +18,10 @@ from polypod.crowd.legs import add_company
 from polypod.environment.placing import own_point
 from polypod.environment.table import surface_at
 from polypod.footprints.plan import plan_step
+from polypod.footprints.scratch import TALLY_DIRECT, TALLY_PLACES
 from polypod.footprints.settings import StepRequest, landing_time, placed_shape
 from polypod.math.quat import store_quat
-from polypod.math.vec3 import Vec3, load_vec3, normalized, store_vec3
+from polypod.math.vec3 import Vec3, distance, load_vec3, normalized, store_vec3
 
 # A foot that found no place for so many cycles may cross the other legs.
 CROWDED = 0.5
@@ -28,6 +29,7 @@ CROWDED = 0.5
 # uneven ground, but not the whole foot. The last is for what moves: it is not asked whether the
 # chords between its frames are free, for a foot goes less far in a frame where they are not.
 STEP_SHARES = (1.0, 0.35, 1.0)
+SAME_PLACE = 1e-6  # m
 
 
 @kernel
@@ -49,6 +51,27 @@ def preferred_footprint(
     x = middle.x + offset.x + math.sin(middle.heading) * ahead
     z = middle.z + offset.z + math.cos(middle.heading) * ahead
     return Vec3(x, state.foot[c, k, 1], z)
+
+
+@kernel
+def note_seen(k: int, found: bool, score: float, scratch: Any) -> None:
+    """Keep the places that were just looked at for a foot, and the one that was chosen.
+
+    That may be of an earlier round of the search, or of the direct swing, which looks at no other;
+    it has the `score` of its pair then.
+    """
+    seen, plan = scratch.seen, scratch.plan
+    count = 0 if found and plan.tally[TALLY_DIRECT] != 0 else plan.tally[TALLY_PLACES]
+    chosen = load_vec3(scratch.path.point[scratch.path.count[0] - 1])
+    for place in range(count):
+        seen.score[k, place] = plan.found.score[place]
+        store_vec3(seen.place[k, place], load_vec3(plan.found.place[place]))
+        found = found and distance(load_vec3(plan.found.place[place]), chosen) > SAME_PLACE
+    if found:
+        count = min(count + 1, seen.score.shape[1])
+        seen.score[k, count - 1] = score
+        store_vec3(seen.place[k, count - 1], chosen)
+    seen.count[k] = count
 
 
 @kernel
@@ -127,7 +150,9 @@ def plan_foot(
             legs.foot_behind[k],
             attempt == 0,
         )
-        found, _ = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
+        found, score = plan_step(env, plan_settings, scratch.plan, request, scratch.path)
+        if scratch.seen.who[0] == c:
+            note_seen(k, found, score, scratch)
         if found:
             break
     if not found:

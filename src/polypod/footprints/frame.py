@@ -10,11 +10,16 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from polypod.compute import kernel
 from polypod.footprints.settings import StepRequest
 from polypod.math.vec3 import Vec3, load_vec3, store_vec3
 from polypod.paths.curve import PathRow
 from polypod.paths.scratch import OtherLegs
+
+FloatArray = NDArray[np.float64]
 
 
 class FootFrame(NamedTuple):
@@ -118,6 +123,13 @@ def legs_out(frame: FootFrame, legs: OtherLegs, count: int) -> None:
     for s in range(count):
         store_vec3(legs.a[s], place_out(frame, load_vec3(legs.a[s])))
         store_vec3(legs.b[s], place_out(frame, load_vec3(legs.b[s])))
+
+
+@kernel
+def places_out(frame: FootFrame, place: FloatArray, count: int) -> None:
+    """Turn the first `count` of places [C, 3] that were found in the frame into the world."""
+    for k in range(count):
+        store_vec3(place[k], place_out(frame, load_vec3(place[k])))
 
 
 @kernel

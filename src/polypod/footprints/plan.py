@@ -9,7 +9,7 @@ from polypod.environment.maps import LocalMap, fill_maps
 from polypod.environment.table import EnvironmentTable, surface_at
 from polypod.footprints.beside import is_open, try_beside
 from polypod.footprints.candidates import close_cells, judge_candidates, judge_shorter, list_cells
-from polypod.footprints.frame import foot_frame, legs_in, legs_out, path_out, request_in
+from polypod.footprints.frame import foot_frame, legs_in, legs_out, path_out, places_out, request_in
 from polypod.footprints.pair import NOTHING, POOR, try_direct, try_pair
 from polypod.footprints.place import judge_place
 from polypod.footprints.scratch import (
@@ -17,6 +17,7 @@ from polypod.footprints.scratch import (
     TALLY_CANDIDATES,
     TALLY_DIRECT,
     TALLY_PATHS,
+    TALLY_PLACES,
     TALLY_WAVEFRONTS,
     PlanScratch,
     make_plan_scratch,
@@ -201,6 +202,7 @@ def search(
         )
         if kept == 0:
             continue
+        scratch.tally[TALLY_PLACES] = max(scratch.tally[TALLY_PLACES], kept)
         slices = place_slices(
             scratch.grid,
             window.highest,
@@ -281,6 +283,7 @@ def plan_step(
     own = request_in(frame, request)
     best = search(env, settings, scratch, own, legs, place_score, best, path)
     legs_out(frame, legs, request.other_foot_count)
+    places_out(frame, scratch.found.place, scratch.tally[TALLY_PLACES])
     scratch.ahead.frame[4] = 0.0
     if best >= 0.0:
         path_out(frame, path)

@@ -23,6 +23,7 @@ TALLY_DIRECT = 0  # 1: the direct swing ended the search
 TALLY_CANDIDATES = 1
 TALLY_WAVEFRONTS = 2
 TALLY_PATHS = 3  # 3D paths made
+TALLY_PLACES = 4  # the most candidates that were there at once, of those in `CandidateScratch`
 
 
 class CandidateScratch(NamedTuple):
@@ -57,7 +58,7 @@ class PlanScratch(NamedTuple):
     found: CandidateScratch
     ground: GroundScratch
     trial: PathRow  # the path being tried
-    tally: NDArray[np.int64]  # [4] what the last request took, for display and measurements
+    tally: NDArray[np.int64]  # [5] what the last request took, for display and measurements
 
 
 def make_plan_scratch(
@@ -89,7 +90,26 @@ def make_plan_scratch(
         ),
         ground=ground_scratch(),
         trial=path_store(),
-        tally=np.zeros(4, np.int64),
+        tally=np.zeros(5, np.int64),
+    )
+
+
+class SeenPlaces(NamedTuple):
+    """What the feet of one creature looked at when each was planned last, to be shown."""
+
+    who: NDArray[np.int64]  # [1] whose feet are noted, -1: nobody's
+    count: NDArray[np.int64]  # type: ignore[assignment]  # [K] places of each foot
+    place: NDArray[np.float64]  # [K, C, 3] world, m
+    score: NDArray[np.float64]  # [K, C] in [0, 1]
+
+
+def seen_places(feet: int, places: int) -> SeenPlaces:
+    """Return the memory for so many feet and places of each."""
+    return SeenPlaces(
+        who=np.full(1, -1, np.int64),
+        count=np.zeros(feet, np.int64),
+        place=np.zeros((feet, places, 3)),
+        score=np.zeros((feet, places)),
     )
 
 

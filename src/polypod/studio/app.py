@@ -19,18 +19,21 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
 
 from polypod.errors import PolypodError, SettingError
+from polypod.studio.document import Document
 from polypod.studio.exports import EXPORTS, Export
 from polypod.studio.gate import Gate
 from polypod.studio.guard import TooLargeError, inline_hashes, parse_json, read_bounded
 from polypod.studio.link import Hub
+from polypod.studio.messages import files_message
 from polypod.studio.rig_limits import LARGEST_FILE
 from polypod.studio.rigs_given import GivenRigs
+from polypod.studio.scene_folder import LARGEST_SCENE, ZIP, MissingFilesError
 from polypod.studio.scenes import document_of
 from polypod.studio.seam import Running
+from polypod.studio.world_files import WorldFiles
 
 PAGE = Path(__file__).parent / "page"
 KINDS = {".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8"}
-LARGEST_SCENE = 1 << 20  # bytes
 LARGEST_QUESTION = 64 << 10  # bytes
 BYTES = "application/octet-stream"
 T = TypeVar("T")
@@ -39,8 +42,8 @@ T = TypeVar("T")
 class Studio:
     """What the routes do."""
 
-    def __init__(self, runner: Running, rigs: GivenRigs, token: str):
-        self.runner, self.rigs, self.token = runner, rigs, token
+    def __init__(self, runner: Running, rigs: GivenRigs, files: WorldFiles, token: str):
+        self.runner, self.rigs, self.files, self.token = runner, rigs, files, token
         self.hub = Hub(runner)
         self._judging = asyncio.Lock()
         self._three = three_file().read_bytes()
@@ -75,8 +78,7 @@ class Studio:
         """Answer `POST /rig`: take a rig in, and say what was found in it."""
         data = await _body(request, LARGEST_FILE, "a rig")
         name = request.query_params.get("name", "rig")
-        document = await self._between_frames(lambda conductor: conductor.stage.document)
-        self.rigs.use({one["rig"] for one in (document["creature"], *document["crowd"])})
+        await self._use()
         return JSONResponse(await self._judge(lambda: self._take(data, name)))
 
     async def judge(self, request: Request) -> Response:
@@ -85,12 +87,37 @@ class Studio:
         return JSONResponse(await self._judge(lambda: self.rigs.judge(asked)))
 
     async def scene(self, request: Request) -> Response:
-        """Answer `POST /scene`: a scene file becomes the document."""
-        data = await _body(request, LARGEST_SCENE, "a scene file")
-        before = await self._between_frames(lambda conductor: conductor.stage.document)
-        document = await self._judge(partial(document_of, data, before, self.rigs))
+        """Answer `POST /scene`: a scene file, or a zip of one, becomes the document."""
+        data = await _body(request, LARGEST_FILE, "a scene with its files")
+        if not data.startswith(ZIP) and len(data) > LARGEST_SCENE:
+            raise TooLargeError(f"a scene file may have {LARGEST_SCENE >> 20} MiB")
+        name = request.query_params.get("name", "scene.toml")
+        before = await self._use()
+        document = await self._judge(
+            partial(document_of, data, name, before, self.rigs, self.files)
+        )
         await self._between_frames(lambda conductor: conductor.take(document))
         return JSONResponse({"document": document})
+
+    async def mesh(self, request: Request) -> Response:
+        """Answer `POST /mesh`: take in a mesh that is to stand about, split into convex parts."""
+        data = await _body(request, LARGEST_FILE, "a mesh")
+        name = request.query_params.get("name", "mesh.glb")
+        await self._use()
+        found = await self._judge(partial(self.files.take, data, name))
+        await self._between_frames(lambda conductor: conductor.say(files_message(conductor)))
+        return JSONResponse(found)
+
+    async def surface(self, request: Request) -> Response:
+        """Answer `GET /mesh/NAME`."""
+        return _arrays(await asyncio.to_thread(self.files.surface, request.path_params["mesh"]))
+
+    async def file(self, request: Request) -> Response:
+        """Answer `POST /file`: keep a file for the scene that will name it."""
+        data = await _body(request, LARGEST_FILE, "a file")
+        name = request.query_params.get("name", "")
+        kept = await self._judge(partial(self.files.waiting.keep, data, name))
+        return JSONResponse({"name": kept})
 
     async def export(self, request: Request) -> Response:
         """Answer `GET /export/NAME`."""
@@ -108,7 +135,15 @@ class Studio:
         if not (creature.isascii() and creature.isdigit() and len(creature) < 6):
             raise SettingError("creature: must be a creature's number")
         found = await self._between_frames(partial(export.read, creature=int(creature)))
-        return await asyncio.to_thread(export.write, found, self.rigs)
+        return await asyncio.to_thread(export.write, found, self.rigs, self.files)
+
+    async def _use(self) -> Document:
+        """Return the document, and have what it names stay."""
+        document = await self._between_frames(lambda conductor: conductor.stage.document)
+        self.rigs.use({one["rig"] for one in (document["creature"], *document["crowd"])})
+        meshes = {one["file"] for one in document["obstacle"] if one["shape"] == "mesh"}
+        self.files.use(meshes | {(document["terrain"] or {}).get("given", "")})
+        return document
 
     async def _between_frames(self, work: Callable[[Any], T]) -> T:
         return await asyncio.wrap_future(self.runner.call(work))
@@ -122,19 +157,20 @@ class Studio:
         return self.rigs.judge({"rig": self.rigs.take(data, name)})
 
 
-def make_app(runner: Running, rigs: GivenRigs, token: str, port: int) -> Gate:
+def make_app(runner: Running, rigs: GivenRigs, files: WorldFiles, token: str, port: int) -> Gate:
     """Return the studio as an ASGI application.
 
     Args:
         runner: the simulation; started and stopped elsewhere.
-        rigs: what was given.
+        rigs: that were given.
+        files: of the world.
         token: that the page carries.
         port: on which it will be reached.
 
     Raises:
         SettingError: three.js is not there.
     """
-    studio = Studio(runner, rigs, token)
+    studio = Studio(runner, rigs, files, token)
 
     async def link(websocket: Any) -> None:
         await studio.hub.serve(websocket)
@@ -148,12 +184,16 @@ def make_app(runner: Running, rigs: GivenRigs, token: str, port: int) -> Gate:
         Route("/rig", studio.rig, methods=["POST"]),
         Route("/judge", studio.judge, methods=["POST"]),
         Route("/scene", studio.scene, methods=["POST"]),
+        Route("/mesh", studio.mesh, methods=["POST"]),
+        Route("/mesh/{mesh}", studio.surface),
+        Route("/file", studio.file, methods=["POST"]),
         Route("/export/{name}", studio.export),
         WebSocketRoute("/link", link),
     ]
     refusals: dict[Any, Any] = {
         HTTPException: _say_status,
         TooLargeError: _say_too_large,
+        MissingFilesError: _say_missing,
         PolypodError: _say_refusal,
     }
     inner = Starlette(routes=routes, exception_handlers=refusals)
@@ -207,6 +247,10 @@ async def _say_status(request: Request, error: HTTPException) -> Response:
 async def _say_too_large(request: Request, error: TooLargeError) -> Response:
     # What is still coming is not read: the connection goes with the answer.
     return JSONResponse({"why": str(error)}, 413, {"Connection": "close"})
+
+
+async def _say_missing(request: Request, error: MissingFilesError) -> Response:
+    return JSONResponse({"why": str(error), "wants": error.names}, 422)
 
 
 async def _say_refusal(request: Request, error: PolypodError) -> Response:

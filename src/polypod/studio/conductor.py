@@ -10,13 +10,15 @@ from polypod.errors import SettingError
 from polypod.gait.library import make_gait
 from polypod.studio.asked import disks_of, facts_of, limits_of
 from polypod.studio.document import Document, edited, judged
+from polypod.studio.drawn import Drawn
 from polypod.studio.frames import Focus, MotionMeter, pack_frame
 from polypod.studio.history import History
 from polypod.studio.judge import Judge
-from polypod.studio.meshes import ground_reach, pack_ground, pack_skin
 from polypod.studio.messages import (
+    backdrop_message,
     clock_message,
     document_message,
+    files_message,
     kinds_message,
     tape_message,
     verdict_message,
@@ -25,11 +27,9 @@ from polypod.studio.messages import (
 from polypod.studio.outbox import Telling
 from polypod.studio.overlays import Overlays
 from polypod.studio.stage import STEP, Stage
-from polypod.studio.tape import NOTHING, Tape
+from polypod.studio.tape import NOTHING, Backdrop, Tape
 
 OVERLAY_EVERY = 0.2  # s
-# The ground is sent anew when the first creature has gone so much of what was sent.
-GONE = 0.4
 
 
 class Conductor:
@@ -45,10 +45,7 @@ class Conductor:
         self.focus = Focus(0, 0)
         self.tape: Tape | None = None
         self.scrubbed: int | None = None
-        self.skins: dict[int, bytes] = {}
-        self.grounds: dict[int, bytes] = {}
-        self.skin_numbers: dict[int, int] = {}
-        self._counter = 0
+        self.backdrop: Backdrop | None = None  # of the frame that is scrubbed
         self._meter = MotionMeter()
         self._overlays = Overlays()
         self._wished: frozenset[str] = frozenset()
@@ -58,8 +55,7 @@ class Conductor:
         self._judge = Judge()
         self._verdict = stage.question().answer()
         self._judge.ask(stage.question())
-        self._renew_skins()
-        self._renew_ground()
+        self.drawn = Drawn(stage)
 
     # What goes out.
 
@@ -69,10 +65,12 @@ class Conductor:
             welcome_message(self),
             facts_of(self.stage.herd, self.stage.rig),
             kinds_message(self),
+            files_message(self),
             document_message(self),
             clock_message(self),
             verdict_message(self._verdict),
             tape_message(self),
+            backdrop_message(self),
         ]
 
     def say(self, message: dict[str, Any]) -> None:
@@ -91,7 +89,9 @@ class Conductor:
         if self.scrubbed is not None:
             return
         self.stage.step(dt)
-        self._renew_ground_if_gone()
+        if self.drawn.gone:
+            self._renew_ground()
+            self.say(kinds_message(self))
         self._send_frame(dt)
         self._send_overlays()
 
@@ -119,10 +119,8 @@ class Conductor:
         self.newest = frame
         tape = self.tape
         if tape is not None and tape.recording and dt is not None:
-            if tape.full or not tape.fits(stage.world):
-                self._stop_tape()
-                why = "the tape is full" if tape.full else "there are other obstacles or limits now"
-                self.say({"is": "trouble", "why": f"recording has ended: {why}"})
+            if tape.full:
+                self._stop_tape("the tape is full")
             else:
                 tape.add(frame)
                 if len(tape.frames) % 15 == 1:
@@ -144,35 +142,15 @@ class Conductor:
 
     # What stands and who walks.
 
-    def _renew_skins(self) -> None:
-        for herd in self.stage.herds:
-            key = id(herd.morphology.source)  # other limits are no other skin
-            if key not in self.skin_numbers:
-                self._counter += 1
-                self.skin_numbers[key] = self._counter
-                self.skins[self._counter] = pack_skin(herd.morphology)
-        walking = {id(herd.morphology.source) for herd in self.stage.herds}
-        for key, number in list(self.skin_numbers.items()):
-            if key not in walking:
-                del self.skin_numbers[key]
-                self.skins.pop(number, None)
-
     def _renew_ground(self) -> None:
-        stage = self.stage
-        self._counter += 1
-        centre = stage.herd.state.position[0].copy()
-        reach = ground_reach(stage.herd.tables.leg_length)
-        self._ground_at = (centre, reach)
-        shown = len(stage.document["obstacle"])
-        packed = pack_ground(stage.world.environment, shown, centre, reach)
-        self.grounds = {self._counter: packed}
+        self.drawn.renew_ground({} if self.tape is None else self.tape.grounds)
+        self._note_backdrop()
 
-    def _renew_ground_if_gone(self) -> None:
-        centre, reach = self._ground_at
-        here = self.stage.herd.state.position[0]
-        if max(abs(here[0] - centre[0]), abs(here[2] - centre[2])) > GONE * reach:
-            self._renew_ground()
-            self.say(kinds_message(self))
+    def _note_backdrop(self) -> None:
+        if self.tape is not None and self.tape.recording:
+            number = self.drawn.ground
+            obstacle = self.stage.document["obstacle"]
+            self.tape.stand(obstacle, number, self.drawn.grounds[number])
 
     def take(self, document: Document, gesture: str | None = None, keep: bool = True) -> None:
         """Take another document, judged; `keep` the one before for undo.
@@ -183,13 +161,24 @@ class Conductor:
         before = self.stage.document
         if document == before:
             return
+        built = any(document[key] != before[key] for key in ("terrain", "obstacle"))
         applied = self.stage.apply(document)
         if keep:
             self.history.note(before, gesture)
+        if built and self.scrubbed is not None:
+            # Who builds wishes to see what comes of it.
+            self._do_scrub({"frame": None})
+        if self.tape is not None and self.tape.recording and not applied.creature:
+            if applied.renumbered is not None:
+                self.tape.change(self.stage.world, self.stage.herds, applied.renumbered)
+            self._note_backdrop()
         if applied.creature or applied.ground:
             self._begin_anew(applied.creature)
         if applied.limits:
+            self._stop_tape("joints have other limits now")
             self.say(limits_of(self.stage.herd, self.stage.rig))
+        # Before the document that may name them.
+        self.say(files_message(self))
         self.say(document_message(self))
         if any(document[k] != before[k] for k in ("creature", "gait", "command")):
             self._judge.ask(self.stage.question())
@@ -199,9 +188,9 @@ class Conductor:
     def _begin_anew(self, creature: bool) -> None:
         self.focus = Focus(0, 0)
         self._meter.forget()
-        if self.tape is not None and self.tape.recording:
-            self._stop_tape()
-        self._renew_skins()
+        if creature:
+            self._stop_tape("others walk now")
+        self.drawn.renew_skins()
         self._renew_ground()
         if creature:
             self.say(facts_of(self.stage.herd, self.stage.rig))
@@ -256,6 +245,7 @@ class Conductor:
 
     def _do_restart(self, order: dict[str, Any]) -> None:
         self.stage.restart()
+        self._stop_tape("the walk has begun anew")
         self._begin_anew(False)
         self._send_frame()
 
@@ -263,15 +253,20 @@ class Conductor:
         if order["on"]:
             self._do_scrub({"frame": None})
             self.tape = Tape(self.stage.world, self.stage.herds)
+            self._note_backdrop()
             self._send_frame()
             self.tape.add(self.newest)
             self.say(tape_message(self))
         else:
             self._stop_tape()
 
-    def _stop_tape(self) -> None:
-        if self.tape is not None:
+    def _stop_tape(self, why: str = "") -> None:
+        """End a recording that is under way, and say why where nobody asked for it."""
+        if self.tape is not None and self.tape.recording:
             self.tape.recording = False
+            if why:
+                why = f"recording has ended: {why}; what was recorded is kept"
+                self.say({"is": "trouble", "why": why})
         self.say(tape_message(self))
 
     def _do_scrub(self, order: dict[str, Any]) -> None:
@@ -279,6 +274,7 @@ class Conductor:
         if index is None:
             if self.scrubbed is not None:
                 self.scrubbed = None
+                self._show_backdrop(None)
                 self._send_frame()
                 self.say(tape_message(self))
             return
@@ -288,9 +284,15 @@ class Conductor:
         content = self.tape.shown(index, self.number)
         self._stop_tape()
         self.scrubbed = index
+        self._show_backdrop(self.tape.backdrop(index))
         self.newest = content
         self._tell(Telling("frame", content))
         self.say(tape_message(self))
+
+    def _show_backdrop(self, backdrop: Backdrop | None) -> None:
+        if backdrop is not self.backdrop:
+            self.backdrop = backdrop
+            self.say(backdrop_message(self))
 
     def _do_watch(self, order: dict[str, Any]) -> None:
         self.focus = Focus(*self.stage.find(order["creature"]))

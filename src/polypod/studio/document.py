@@ -14,7 +14,7 @@ from typing import Any
 
 from polypod.environment.generators import GENERATORS
 from polypod.environment.obstacles import LARGEST, Obstacle
-from polypod.environment.scene import read_obstacle
+from polypod.environment.scene import MOTION, SPLIT, read_obstacle
 from polypod.environment.scene_terrain import read_generated
 from polypod.environment.scene_values import SceneTable, shown
 from polypod.environment.terrain import Terrain
@@ -44,6 +44,10 @@ OPTIONAL = ("obstacle", "terrain")
 MOST_OBSTACLES, MOST_WAYPOINTS, MOST_CREATURES, MOST_FEET = 500, 256, 200, 256
 MOST_LIMITS = 1000  # joints
 WIDEST_SPACING = 10.0  # m
+# Keys of an obstacle that is a mesh.
+MESH = (
+    "name", "shape", "position", "yaw", "rotation", "forbidden", *MOTION, "file", "size", *SPLIT,
+)  # fmt: skip
 Document = dict[str, Any]
 
 
@@ -231,7 +235,7 @@ def _judge_place(terrain: Any, obstacles: list[Any]) -> None:
         else:
             made_terrain(json.dumps(terrain, sort_keys=True))
     for i, obstacle in enumerate(obstacles):
-        made_obstacle(i, obstacle)
+        still_obstacle(i, obstacle, (1.0, 1.0, 1.0))
 
 
 @lru_cache(maxsize=8)
@@ -244,13 +248,22 @@ def made_terrain(terrain: str) -> Terrain | TiledTerrain:
     return read_generated("the document's terrain", json.loads(terrain), 0)
 
 
-def made_obstacle(index: int, values: Any) -> Obstacle:
+def still_obstacle(index: int, values: Any, own_size: Sequence[float]) -> Obstacle:
     """Return an obstacle of a document; what it may have is a scene file's [[obstacle]].
 
+    A mesh is returned as the box that it fills: its file is known where the world is made.
+
+    Args:
+        index: its number.
+        values: what the document says of it.
+        own_size: m, of a mesh for which the document says none.
+
     Raises:
-        SettingError: it is none, or a mesh: files are not read for a page.
+        SettingError: it is none.
     """
     place = f"obstacle {index + 1}"
     if isinstance(values, dict) and values.get("shape") == "mesh":
-        raise SettingError(f"{place} is a mesh; the studio has box, cylinder, sphere and hull")
+        SceneTable(f"{place}, a mesh,", values, MESH).text("file")
+        box = {key: value for key, value in values.items() if key not in ("file", *SPLIT)}
+        values = {"size": list(own_size), **box, "shape": "box"}
     return read_obstacle(None, place, values)

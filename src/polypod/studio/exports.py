@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import copy
+import io
 import tempfile
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from polypod.errors import SettingError
-from polypod.report.record import Recording, write_record
+from polypod.report.record import MEMBER_DATE, write_record
 from polypod.rigs.export import glb_bytes
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
 from polypod.studio.rigs_given import GivenRigs
-from polypod.studio.scenes import creature_toml, scene_toml
-from polypod.studio.tape import NOTHING
+from polypod.studio.scenes import creature_toml, scene_toml, scene_zip
+from polypod.studio.tape import NOTHING, Walk
+from polypod.studio.world_files import WorldFiles
 
 
 class Export(NamedTuple):
@@ -23,10 +28,10 @@ class Export(NamedTuple):
 
     kind: str  # as browsers call it
     read: Callable[..., Any]  # (conductor, creature)
-    write: Callable[[Any, GivenRigs], bytes]
+    write: Callable[[Any, GivenRigs, WorldFiles], bytes]
 
 
-def _walk(conductor: Conductor, creature: int) -> Recording:
+def _walk(conductor: Conductor, creature: int) -> Walk:
     if conductor.tape is None:
         raise SettingError(NOTHING)
     return conductor.tape.walk(creature)
@@ -36,22 +41,31 @@ def _document(conductor: Conductor, creature: int) -> Document:
     return copy.deepcopy(conductor.stage.document)
 
 
-def _glb(walk: Recording, rigs: GivenRigs) -> bytes:
-    return glb_bytes(walk)
+def _glb(walk: Walk, rigs: GivenRigs, files: WorldFiles) -> bytes:
+    return glb_bytes(walk.recording)
 
 
-def _npz(walk: Recording, rigs: GivenRigs) -> bytes:
+def _npz(walk: Walk, rigs: GivenRigs, files: WorldFiles) -> bytes:
     with tempfile.TemporaryDirectory(prefix="polypod-studio-") as folder:
         file = Path(folder) / "walk.npz"
-        write_record(walk, file)
+        write_record(walk.recording, file)
+        # What a walk of the command line does not need: there all obstacles stand all the time.
+        there = io.BytesIO()
+        np.lib.format.write_array(there, walk.there, version=(1, 0), allow_pickle=False)
+        with zipfile.ZipFile(file, "a", zipfile.ZIP_STORED) as archive:
+            archive.writestr(zipfile.ZipInfo("obstacle_there.npy", MEMBER_DATE), there.getvalue())
         return file.read_bytes()
 
 
-def _scene(document: Document, rigs: GivenRigs) -> bytes:
-    return scene_toml(document, rigs).encode()
+def _scene(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
+    return scene_toml(document, rigs, files).encode()
 
 
-def _creature(document: Document, rigs: GivenRigs) -> bytes:
+def _scene_zip(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
+    return scene_zip(document, rigs, files)
+
+
+def _creature(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
     return creature_toml(document["creature"], rigs).encode()
 
 
@@ -59,5 +73,6 @@ EXPORTS = {
     "walk.glb": Export("model/gltf-binary", _walk, _glb),
     "walk.npz": Export("application/octet-stream", _walk, _npz),
     "scene.toml": Export("application/toml", _document, _scene),
+    "scene.zip": Export("application/zip", _document, _scene_zip),
     "creature.toml": Export("application/toml", _document, _creature),
 }

@@ -23,7 +23,6 @@ def welcome_message(conductor: Conductor) -> Message:
         "version": __version__,
         "rigs": list(BUILT_IN),
         "generators": {name: generator_keys(name) for name in GENERATORS},
-        "given": list(conductor.stage.given),
         "fps": RATE,
     }
 
@@ -32,14 +31,14 @@ def kinds_message(conductor: Conductor) -> Message:
     """Say who walks, and which skins and ground that is drawn with."""
     kinds = [
         {
-            "skin": conductor.skin_numbers[id(herd.morphology.source)],
+            "skin": conductor.drawn.skin_numbers[id(herd.morphology.source)],
             "count": herd.count,
             "joints": len(herd.morphology.joint_node) + 1,
             "name": herd.morphology.name,
         }
         for herd in conductor.stage.herds
     ]
-    return {"is": "kinds", "kinds": kinds, "ground": max(conductor.grounds)}
+    return {"is": "kinds", "kinds": kinds, "ground": conductor.drawn.ground}
 
 
 def document_message(conductor: Conductor) -> Message:
@@ -50,6 +49,12 @@ def document_message(conductor: Conductor) -> Message:
         "can_undo": conductor.history.can_undo,
         "can_redo": conductor.history.can_redo,
     }
+
+
+def files_message(conductor: Conductor) -> Message:
+    """Say which meshes and grounds of files there are."""
+    files = conductor.stage.files
+    return {"is": "files", "meshes": files.mesh_names, "grounds": files.ground_names}
 
 
 def clock_message(conductor: Conductor) -> Message:
@@ -89,4 +94,14 @@ def tape_message(conductor: Conductor) -> Message:
         "frames": 0 if tape is None else len(tape.frames),
         "seconds": 0.0 if tape is None else tape.seconds,
         "scrub": conductor.scrubbed,
+    }
+
+
+def backdrop_message(conductor: Conductor) -> Message:
+    """Say what stood in the frame of the tape that is shown; nulls where none is."""
+    backdrop = conductor.backdrop
+    return {
+        "is": "backdrop",
+        "obstacle": None if backdrop is None else backdrop.obstacle,
+        "ground": None if backdrop is None else backdrop.ground,
     }

@@ -12,11 +12,11 @@ from polypod.jobs.screen import note, telling_of_compilation
 from polypod.morphology.builtin import NAMES as BUILT_IN
 from polypod.morphology.load import load_rig
 from polypod.studio.document import Document, default_document, judged
-from polypod.studio.places import Ground
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.runner import Runner
 from polypod.studio.scenes import read_document
 from polypod.studio.serve import bind, open_browser, serve
+from polypod.studio.world_files import WorldFiles
 
 SCENE_KEYS = ("terrain", "obstacle", "scatter", "creature", "push")
 
@@ -33,28 +33,29 @@ def open_studio(given: argparse.Namespace) -> None:
         if not given.no_browser:
             open_browser(address)
 
-    rigs = GivenRigs()
+    rigs, files = GivenRigs(), WorldFiles()
     try:
-        document, terrains = opening(given, rigs)
+        document = opening(given, rigs, files)
         listener = bind(given.port)
-        runner = Runner(document, rigs.find, terrains)
+        runner = Runner(document, rigs.find, files)
         try:
             with telling_of_compilation():
                 runner.start()
                 runner.ready.wait()
             if runner.failed is not None:
                 raise runner.failed
-            serve(runner, rigs, listener, opened)
+            serve(runner, rigs, files, listener, opened)
         finally:
             listener.close()
             runner.stop()
     finally:
         rigs.close()
+        files.close()
     note("the studio is closed")
 
 
-def opening(given: argparse.Namespace, rigs: GivenRigs) -> tuple[Document, dict[str, Ground]]:
-    """Return the first document, and terrains that came with its scene.
+def opening(given: argparse.Namespace, rigs: GivenRigs, files: WorldFiles) -> Document:
+    """Return the first document; its scene's rigs and files are known from then on.
 
     Raises:
         PolypodError: the rig or the scene cannot be used.
@@ -62,9 +63,8 @@ def opening(given: argparse.Namespace, rigs: GivenRigs) -> tuple[Document, dict[
     if given.rig is not None and given.scene is None and _is_scene(given.rig):
         given.rig, given.scene = None, given.rig
     document = default_document()
-    terrains: dict[str, Ground] = {}
     if given.scene is not None:
-        document, terrains = read_document(Path(given.scene), document, rigs)
+        document = read_document(Path(given.scene), document, rigs, files)
     asked = {key: getattr(given, key) for key in RIG_OPTIONS}
     said = [RIG_OPTIONS[key] for key, value in asked.items() if value is not None]
     if given.rig is None:
@@ -80,7 +80,7 @@ def opening(given: argparse.Namespace, rigs: GivenRigs) -> tuple[Document, dict[
             if key in ("leg", "spine")
         }
         document["creature"] |= asked | lists
-    return judged(document), terrains
+    return judged(document)
 
 
 def _known(rig: str, rigs: GivenRigs) -> str:

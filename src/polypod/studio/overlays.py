@@ -20,7 +20,6 @@ from polypod.environment.grown import (
 )
 from polypod.environment.maps import LocalMap, fill_maps, make_local_map
 from polypod.environment.table import surface
-from polypod.footprints.scratch import TALLY_CANDIDATES, TALLY_DIRECT
 from polypod.herd import Herd
 from polypod.reference import by_reference
 from polypod.report.arrays import FloatArray
@@ -94,22 +93,22 @@ class Overlays:
 
 
 def candidates(stage: Stage, herd: Herd, c: int) -> dict[str, NDArray[Any]]:
-    """Return the places that were looked at for the foot planned last, and their scores [N].
+    """Return the places that were looked at for each foot that swings, or waits for a place.
 
-    Where the first, direct swing was good enough it is the only one.
+    Where the first, direct swing was good enough its place is the only one. Their scores [N], best
+    1, and the foot [N] that each is of.
     """
-    plan = herd.planned()
-    found, tally = plan.found, plan.tally
-    count = 1 if tally[TALLY_DIRECT] else int(tally[TALLY_CANDIDATES])
-    count = min(count, len(found.score))
-    place, score = found.place[:count], found.score[:count]
-    if tally[TALLY_DIRECT] or count == 0:
-        newest = int(np.argmin(np.where(herd.state.swinging[c], herd.state.plan_clock[c], np.inf)))
-        place, score = herd.state.foot_target[c, newest][None], np.ones(1)
+    herd.watch(c)
+    places, scores, feet = [np.zeros((0, 3))], [np.zeros(0)], [np.zeros(0, np.int64)]
+    for foot in np.flatnonzero(herd.state.swinging[c] | (herd.state.waiting[c] > 0.0)):
+        place, score = herd.seen(int(foot))
+        places.append(place)
+        scores.append(score)
+        feet.append(np.full(len(place), foot))
     return {
-        "place": np.array(place, np.float32),
-        "score": np.array(score, np.float32),
-        "foot": np.zeros(len(score), np.uint16),
+        "place": np.concatenate(places).astype(np.float32),
+        "score": np.concatenate(scores).astype(np.float32),
+        "foot": np.concatenate(feet).astype(np.uint16),
     }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,14 +12,12 @@ import numpy as np
 from polypod.environment.environment import Environment
 from polypod.environment.obstacles import Obstacle
 from polypod.environment.terrain import Terrain
-from polypod.environment.tiled import TiledTerrain
-from polypod.errors import SettingError, choices
 from polypod.report.arrays import FloatArray
-from polypod.studio.document import Document, made_obstacle, made_terrain
+from polypod.studio.document import Document, made_terrain, still_obstacle
+from polypod.studio.world_files import Ground, WorldFiles, mesh_obstacle
 
 # What may change of an obstacle while it stays the same to whoever stands on it.
 MOVED = ("position", "yaw")
-Ground = Terrain | TiledTerrain
 
 
 class Change(NamedTuple):
@@ -29,7 +27,7 @@ class Change(NamedTuple):
     renumbered: tuple[int, ...]  # of each obstacle before, its number now, -1: gone
 
 
-def terrain_of(document: Document, given: Mapping[str, Ground]) -> Ground:
+def terrain_of(document: Document, files: WorldFiles) -> Ground:
     """Return the terrain that a document asks for.
 
     Raises:
@@ -39,21 +37,30 @@ def terrain_of(document: Document, given: Mapping[str, Ground]) -> Ground:
     if terrain is None:
         return Terrain.flat()
     if "given" in terrain:
-        if terrain["given"] not in given:
-            known = choices(given) if given else "none was opened"
-            raise SettingError(f"there is no terrain of a scene {terrain['given']!r}; {known}")
-        return given[terrain["given"]]
+        return files.ground(terrain["given"]).ground
     return made_terrain(json.dumps(terrain, sort_keys=True))
 
 
-def make_place(document: Document, given: Mapping[str, Ground]) -> Environment:
+def made_obstacle(index: int, values: dict[str, Any], files: WorldFiles) -> Obstacle:
+    """Return an obstacle of a document.
+
+    Raises:
+        SettingError: a mesh that is not in the studio.
+    """
+    if values["shape"] != "mesh":
+        return still_obstacle(index, values, ())
+    solid = files.solid(values["file"], values)
+    return mesh_obstacle(still_obstacle(index, values, solid.size), solid)
+
+
+def make_place(document: Document, files: WorldFiles) -> Environment:
     """Return the place that a document asks for, in which what stands may be moved."""
-    obstacles = [made_obstacle(i, one) for i, one in enumerate(document["obstacle"])]
-    return Environment(terrain_of(document, given), obstacles, movable=True)
+    obstacles = [made_obstacle(i, one, files) for i, one in enumerate(document["obstacle"])]
+    return Environment(terrain_of(document, files), obstacles, movable=True)
 
 
 def change_of(
-    before: Document, after: Document, environment: Environment, given: Mapping[str, Ground]
+    before: Document, after: Document, environment: Environment, files: WorldFiles
 ) -> Change:
     """Return how the obstacles of a document come to those of the next, on the same terrain."""
     old, new = before["obstacle"], after["obstacle"]
@@ -63,7 +70,7 @@ def change_of(
             if a != b:
                 _move(i, b, environment)
         return Change(None, ())
-    return Change(make_place(after, given), renumbered(old, new, len(environment.obstacles)))
+    return Change(make_place(after, files), renumbered(old, new, len(environment.obstacles)))
 
 
 def _only_moved(before: dict[str, Any], after: dict[str, Any]) -> bool:
@@ -90,21 +97,28 @@ def renumbered(
 ) -> tuple[int, ...]:
     """Return which obstacle after a change each one before is, -1: it is gone.
 
-    Unchanged ones are found again, in their order; one that was changed is the one at its number,
-    as long as nothing was taken out. What follows them, to the `total`, is the terrain's own.
+    One that was changed is the one at its number, unless that is another one that was there before.
+    What follows them, to the `total`, is the terrain's own.
     """
-    numbers = []
-    taken: set[int] = set()
-    same_length = len(before) <= len(after)
-    for i, one in enumerate(before):
-        if same_length:
-            numbers.append(i)
-            continue
-        found = next((j for j, other in enumerate(after) if j not in taken and other == one), -1)
-        taken.add(found)
-        numbers.append(found)
     shift = len(after) - len(before)
-    return (*numbers, *(i + shift for i in range(len(before), total)))
+    return (*_found_again(before, after), *(i + shift for i in range(len(before), total)))
+
+
+def on_other_ground(
+    before: Sequence[dict[str, Any]], after: Sequence[dict[str, Any]], total: int
+) -> tuple[int, ...]:
+    """Return the same where the terrain is another: what was its own, to the `total`, is gone."""
+    return (*_found_again(before, after), *[-1] * (total - len(before)))
+
+
+def _found_again(before: Sequence[dict[str, Any]], after: Sequence[dict[str, Any]]) -> list[int]:
+    found = [i if i < len(after) and one == after[i] else -1 for i, one in enumerate(before)]
+    free = [j for j in range(len(after)) if j >= len(before) or found[j] != j]
+    for i, one in enumerate(before):
+        if found[i] < 0:
+            found[i] = next((j for j in free if after[j] == one), -1)
+            free = [j for j in free if j != found[i]]
+    return [i if found[i] < 0 and i in free else found[i] for i in range(len(before))]
 
 
 def obstacle_poses(environment: Environment, shown: int) -> FloatArray:

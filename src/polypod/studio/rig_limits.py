@@ -34,18 +34,19 @@ VERTEX_BYTES = 352
 COPIES = 3
 
 
-def judge_upload(data: bytes, name: str) -> None:
+def judge_upload(data: bytes, name: str, what: str = "rig") -> None:
     """Refuse a file that would take too much to read.
 
     Args:
         data: the file, GLB or .gltf.
         name: of the file, for messages.
+        what: it is meant to be, for messages.
 
     Raises:
         RigError: it is no glTF, needs other files, or is too large in some way.
     """
     if len(data) > LARGEST_FILE:
-        raise RigError(f"{name}: a rig may have {LARGEST_FILE >> 20} MiB, this one has more")
+        raise RigError(f"{name}: a {what} may have {LARGEST_FILE >> 20} MiB, this one has more")
     text = _json_of(data)
     _judge_count(
         name, "values in its JSON", sum(text.count(c) for c in (b",", b"[", b"{")), MOST_VALUES

@@ -127,6 +127,10 @@ class GivenRigs:
             found = [rig for rig, upload in self._uploads.items() if upload.name == name]
         return found[-1] if found else None
 
+    def has(self, name: str) -> bool:
+        """Return whether there is a rig of this name."""
+        return self.named(name) is not None
+
     def judge(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """Return what is found in a rig, and whether it walks.
 

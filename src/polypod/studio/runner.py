@@ -15,6 +15,7 @@ from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
 from polypod.studio.outbox import Telling
 from polypod.studio.stage import STEP, FindRig, Stage
+from polypod.studio.world_files import WorldFiles
 
 Result = TypeVar("Result")
 
@@ -34,9 +35,9 @@ class Runner:
     """Walks a document's world in a thread of its own; other threads talk to it by its queue."""
 
     def __init__(
-        self, document: Document, find_rig: FindRig, given: dict[str, Any] | None = None
+        self, document: Document, find_rig: FindRig, files: WorldFiles | None = None
     ) -> None:
-        self._opening = (document, find_rig, given)
+        self._opening = (document, find_rig, files)
         self._work: deque[Callable[[], None]] = deque()
         self._woken = threading.Condition()
         self._listeners: list[Callable[[Telling], None]] = []
@@ -113,11 +114,11 @@ class Runner:
 
     def skin(self, number: int) -> bytes | None:
         """Return a skin by its number, as named arrays."""
-        return None if self.conductor is None else self.conductor.skins.get(number)
+        return None if self.conductor is None else self.conductor.drawn.skins.get(number)
 
     def ground(self, number: int) -> bytes | None:
         """Return the ground by its number, as named arrays."""
-        return None if self.conductor is None else self.conductor.grounds.get(number)
+        return None if self.conductor is None else self.conductor.drawn.grounds.get(number)
 
     @property
     def _conductor(self) -> Conductor:
@@ -130,9 +131,9 @@ class Runner:
             self._woken.notify()
 
     def _run(self) -> None:
-        document, find_rig, given = self._opening
+        document, find_rig, files = self._opening
         try:
-            stage = Stage(document, find_rig, given)
+            stage = Stage(document, find_rig, files)
         except PolypodError as error:
             self.failed = error
             self.ready.set()

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from polypod.environment.obstacles import Obstacle
-from polypod.environment.scene import Scene, read_scene
-from polypod.errors import SceneError, SettingError
+from polypod.environment.scene import SPLIT, Scene, read_scene
 from polypod.studio.document import Document, default_document, judged
-from polypod.studio.places import Ground, yaw_of
+from polypod.studio.places import yaw_of
 from polypod.studio.toml_text import table, tables_by_name
+from polypod.studio.world_files import GivenGround, WorldFiles
 
 # What a scene's [[creature]] takes over from a document's creature.
 NAMED = ("leg", "spine", "forward", "height", "body_height")
@@ -21,20 +21,11 @@ def scene_text(document: Document) -> str:
     """Return the scene file of a document: terrain, obstacles, and who walks where.
 
     What a scene file cannot hold (an edited gait, feet spacing, the body's motion) stays in the
-    studio's own link.
-
-    Raises:
-        SettingError: its terrain is of a file that only the scene that was opened names.
+    studio's own link. Rigs, meshes and a ground of files are called here as the document does.
     """
     parts = []
-    terrain = document["terrain"]
-    if terrain is not None:
-        if "given" in terrain:
-            raise SettingError(
-                f"the terrain is of the scene {terrain['given']!r}, whose own file holds it; "
-                "choose another terrain to save this one"
-            )
-        parts.append(table("[terrain]", terrain))
+    if document["terrain"] is not None:
+        parts.append(table("[terrain]", document["terrain"]))
     parts += [table("[[obstacle]]", one) for one in document["obstacle"]]
     first, *others = _creatures(document)
     parts.append(table("[[creature]]", first))
@@ -58,14 +49,16 @@ def _creatures(document: Document) -> list[dict[str, Any]]:
     return [first, *(dict(kind) for kind in document["crowd"])]
 
 
-def document_of_scene(path: Path, before: Document) -> tuple[Document, dict[str, Ground]]:
-    """Return the document of a scene file, and the terrain that it brings, by its name.
+def document_of_scene(path: Path, before: Document, files: WorldFiles, own: bool) -> Document:
+    """Return the document of a scene file; its meshes and its ground are known from then on.
 
     The creature stays the one before where the scene has none.
 
     Args:
         path: of the file.
         before: the document that it takes the place of.
+        files: of the world.
+        own: its folder is one of the studio's.
 
     Raises:
         SceneError: the file cannot be used.
@@ -74,16 +67,21 @@ def document_of_scene(path: Path, before: Document) -> tuple[Document, dict[str,
     values = tomllib.loads(path.read_text(encoding="utf-8"))
     document = default_document(before["creature"]["rig"])
     document["creature"] = dict(before["creature"])
-    given: dict[str, Ground] = {}
     terrain = values.get("terrain")
     if terrain is not None and "generator" in terrain:
         document["terrain"] = terrain
     elif terrain is not None:
-        document["terrain"] = {"given": path.stem}
-        given[path.stem] = scene.terrain
-    document["obstacle"] = [obstacle_values(path, one) for one in scene.obstacles]
+        given = GivenGround(scene.terrain, terrain, path.parent, own)
+        document["terrain"] = {"given": files.keep_ground(path.stem, given)}
+    document["obstacle"] = [obstacle_values(one) for one in scene.obstacles]
+    for i, one in enumerate(values.get("obstacle", [])):
+        if one["shape"] == "mesh":
+            split = {key: one[key] for key in SPLIT if key in one}
+            mesh = files.point_to(path.parent / one["file"], own)
+            files.know(mesh, split, scene.obstacles[i])
+            document["obstacle"][i] |= {"file": mesh, **split}
     _take_creatures(document, scene)
-    return judged(document), given
+    return judged(document)
 
 
 def _take_creatures(document: Document, scene: Scene) -> None:
@@ -108,14 +106,8 @@ def _take_creatures(document: Document, scene: Scene) -> None:
             document["crowd"].append({"rig": spec.rig, "count": spec.count - 1})
 
 
-def obstacle_values(path: Path, obstacle: Obstacle) -> dict[str, Any]:
-    """Return an obstacle as a document holds it.
-
-    Raises:
-        SceneError: it is a mesh, which a document cannot hold.
-    """
-    if obstacle.shape == "mesh":
-        raise SceneError(f"{path} has a mesh obstacle; the studio has box, cylinder, sphere, hull")
+def obstacle_values(obstacle: Obstacle) -> dict[str, Any]:
+    """Return an obstacle as a document holds it, but for a mesh's file and how that is split."""
     values: dict[str, Any] = {"shape": obstacle.shape, "position": list(obstacle.position)}
     if obstacle.name:
         values["name"] = obstacle.name

@@ -6,8 +6,7 @@ its content, a scene by its file.
 
 from __future__ import annotations
 
-import copy
-import tempfile
+import shutil
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -19,77 +18,95 @@ from polypod.gait.library import make_gait, names
 from polypod.morphology.load import load_rig
 from polypod.studio.asked import disks_of
 from polypod.studio.document import CREATURE, Document
-from polypod.studio.places import Ground
-from polypod.studio.rigs_given import GivenRigs
+from polypod.studio.luggage import Luggage
+from polypod.studio.rigs_given import GivenRigs, clean_name
 from polypod.studio.saved import document_of_scene, scene_text
+from polypod.studio.scene_folder import (
+    PLACE,
+    ZIP,
+    MissingFilesError,
+    confine,
+    lay_out,
+    pack,
+    parsed,
+    unpack,
+)
 from polypod.studio.toml_text import table, tables_by_name
-
-# Keys of a terrain that name files.
-FILES = ("heightmap", "tiles", "mesh", "water")
-PLACE = "the scene"
+from polypod.studio.world_files import WorldFiles
 
 
-def document_of(data: bytes, before: Document, rigs: GivenRigs) -> Document:
-    """Return what a scene file asks for, as the page sends it: its text and no file beside it.
+def document_of(
+    data: bytes, name: str, before: Document, rigs: GivenRigs, files: WorldFiles
+) -> Document:
+    """Return what a scene asks for, as the page sends it.
 
     Args:
-        data: the file.
+        data: a scene file, whose files wait in `files` or are rigs that were given; or a zip of one
+            with them.
+        name: of the file.
         before: the document whose creature walks there, if the scene has none of its own.
         rigs: where the rigs are that it names.
+        files: of the world; meshes and the ground are known from then on.
 
     Raises:
-        PolypodError: it is no scene, or asks for what only a file beside it could say.
+        PolypodError: it is no scene, or names what cannot be used; MissingFilesError: what is not
+            there.
     """
+    folder = files.new_folder()
+    document = None
     try:
-        values = tomllib.loads(data.decode())
-    except (ValueError, RecursionError) as error:
-        raise SceneError(f"{PLACE} is no valid TOML ({str(error)[:120]})") from None
-    _refuse_files(values)
-    with tempfile.TemporaryDirectory(prefix="polypod-studio-") as folder:
-        file = Path(folder) / "scene.toml"
-        file.write_bytes(data)
-        try:
-            document, _ = document_of_scene(file, before)
-        except PolypodError as error:
-            raise type(error)(str(error).replace(str(file), PLACE)) from None
-    return _cast(document, values, rigs, lambda name: None)
+        if data.startswith(ZIP):
+            scene = unpack(data, folder)
+        else:
+            title = clean_name(name, ".toml")
+            scene = lay_out(data, title, folder, files.waiting.files, rigs.has)
+            files.waiting.let_go()
+        document = read_document(scene, before, rigs, files, own=True)
+    except MissingFilesError:
+        raise
+    except PolypodError as error:
+        files.waiting.let_go()
+        told = str(error).replace(f"{folder}/", "").replace(str(folder), PLACE)
+        raise type(error)(told) from None
+    finally:
+        # A ground goes on being read from its files.
+        kept = document is not None and "given" in (document["terrain"] or {})
+        if not kept:
+            shutil.rmtree(folder, ignore_errors=True)
+    return document
 
 
 def read_document(
-    path: Path, before: Document, rigs: GivenRigs
-) -> tuple[Document, dict[str, Ground]]:
-    """Return what a scene file on this computer asks for, and the terrain that it has of files.
+    path: Path, before: Document, rigs: GivenRigs, files: WorldFiles, own: bool = False
+) -> Document:
+    """Return what a scene file on this computer asks for.
+
+    Args:
+        path: of the file.
+        before: the document whose creature walks there, if the scene has none of its own.
+        rigs: where rigs are noted.
+        files: of the world, where meshes and a ground are noted.
+        own: the scene's folder is one of the studio's, and its files a stranger's.
 
     Raises:
-        PolypodError: it is no scene, or has what the studio has not.
+        PolypodError: it is no scene, or names what cannot be used, or what is not in its folder.
     """
+    try:
+        values = parsed(path.read_bytes())
+    except (OSError, SceneError):
+        values = {}  # who reads the scene says so better
+    confine(path, values)
 
     def beside(name: str) -> str | None:
         file = path.parent / name
-        return rigs.point_to(file) if file.is_file() else None
+        if not file.is_file():
+            return None
+        if own and file.suffix.lower() != ".toml":
+            return rigs.take(file.read_bytes(), file.name)
+        return rigs.point_to(file)
 
-    document, given = document_of_scene(path, before)
-    values = tomllib.loads(path.read_text(encoding="utf-8"))
-    return _cast(document, values, rigs, beside), given
-
-
-def _refuse_files(values: Mapping[str, Any]) -> None:
-    """Refuse what would be read from this computer's files: only a scene's own folder may say so.
-
-    Raises:
-        SceneError: a terrain or an obstacle names a file.
-    """
-    places = [("terrain", values.get("terrain"))]
-    obstacles = values.get("obstacle")
-    if isinstance(obstacles, list):
-        places += [(f"[[obstacle]] number {i + 1}", one) for i, one in enumerate(obstacles)]
-    for place, keys in places:
-        found = [key for key in (*FILES, "file") if isinstance(keys, dict) and key in keys]
-        if found:
-            raise SceneError(
-                f"{PLACE}: {place} names a file by {found[0]}, and the page has only the scene; "
-                "open it from where it is: polypod studio SCENE.toml"
-            )
+    document = document_of_scene(path, before, files, own)
+    return _cast(document, values, rigs, beside)
 
 
 def _cast(
@@ -129,16 +146,25 @@ def _disks(gait: str, creature: Mapping[str, Any], rigs: GivenRigs) -> dict[str,
     return disks_of(make_gait(gait, legs.side, legs.row))
 
 
-def scene_toml(document: Document, rigs: GivenRigs) -> str:
+def scene_toml(document: Document, rigs: GivenRigs, files: WorldFiles) -> str:
     """Return a document as a scene file; what a scene cannot say is left out.
 
+    Rigs, meshes and heights are called as in the zip of `scene_zip`: it lies beside them.
+
     Raises:
-        SettingError: its terrain is of files that another scene names.
+        SettingError: something that it names is not in the studio any more.
     """
-    named = copy.deepcopy(document)
-    for holder in (named["creature"], *named["crowd"]):
-        holder["rig"] = rigs.name(holder["rig"])
-    return scene_text(named)
+    return scene_text(Luggage(document, rigs, files).named)
+
+
+def scene_zip(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
+    """Return a document as a zip of a scene file and all that it names.
+
+    Raises:
+        PolypodError: a file of it is not there any more, or they are too large together.
+    """
+    luggage = Luggage(document, rigs, files)
+    return pack(scene_text(luggage.named), luggage.contents())
 
 
 def creature_toml(creature: Mapping[str, Any], rigs: GivenRigs) -> str:

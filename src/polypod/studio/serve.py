@@ -15,6 +15,7 @@ from polypod.studio.app import make_app
 from polypod.studio.guard import LARGEST_DOCUMENT
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.seam import Running
+from polypod.studio.world_files import WorldFiles
 
 HOME = "127.0.0.1"
 USUAL_PORT = 8571  # the same each time, so that links to a state go on leading somewhere
@@ -52,6 +53,7 @@ def bind(port: int | None) -> socket.socket:
 def serve(
     runner: Running,
     rigs: GivenRigs,
+    files: WorldFiles,
     listener: socket.socket,
     opened: Callable[[str], None],
 ) -> None:
@@ -59,13 +61,14 @@ def serve(
 
     Args:
         runner: the simulation, started.
-        rigs: what was given; its folder is deleted at the end.
+        rigs: that were given; their folder is deleted at the end.
+        files: of the world, likewise.
         listener: from `bind`.
         opened: called with the address before anything is served.
     """
     port = int(listener.getsockname()[1])
     config = uvicorn.Config(
-        make_app(runner, rigs, secrets.token_urlsafe(32), port),
+        make_app(runner, rigs, files, secrets.token_urlsafe(32), port),
         log_level="warning",
         access_log=False,
         lifespan="off",

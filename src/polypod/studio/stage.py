@@ -17,8 +17,9 @@ from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
 from polypod.studio.joint_limits import LimitedRig, why_not_standing
 from polypod.studio.judge import Question
-from polypod.studio.places import Ground, change_of, make_place, obstacle_poses
+from polypod.studio.places import change_of, make_place, obstacle_poses, on_other_ground
 from polypod.studio.wandering import Wanderers, stand_beside
+from polypod.studio.world_files import WorldFiles
 from polypod.world import World
 
 # Where a rig's name leads: a built-in's name as it is, an upload's to its file; else SettingError.
@@ -34,6 +35,7 @@ class Applied(NamedTuple):
     creature: bool  # who walks: the skins are others
     ground: bool
     limits: bool  # how far the joints of the one who walks turn
+    renumbered: tuple[int, ...] | None  # for each obstacle before its number now, -1: gone
 
 
 class Stage:
@@ -47,10 +49,11 @@ class Stage:
     """
 
     def __init__(
-        self, document: Document, find_rig: FindRig, given: Mapping[str, Ground] | None = None
+        self, document: Document, find_rig: FindRig, files: WorldFiles | None = None
     ) -> None:
+        self.world: World
         self.find_rig = find_rig
-        self.given: dict[str, Ground] = dict(given or {})
+        self.files = files or WorldFiles()
         self._rigs: dict[str, LimitedRig] = {}
         self._build(document)
         self.document = document
@@ -68,22 +71,23 @@ class Stage:
         """
         before = self.document
         creature = _who_walks(document) != _who_walks(before)
-        applied = Applied(
-            creature=creature,
-            ground=document["terrain"] != before["terrain"],
-            limits=not creature and document["creature"] != before["creature"],
-        )
-        if applied.creature or applied.ground:
-            self._build(document, stays=not applied.creature)
+        ground = document["terrain"] != before["terrain"]
+        limits = not creature and document["creature"] != before["creature"]
+        numbers: tuple[int, ...] | None = None
+        if creature or ground:
+            total = len(self.world.environment.obstacles)
+            self._build(document, stays=not creature)
+            if not creature:
+                numbers = on_other_ground(before["obstacle"], document["obstacle"], total)
         else:
-            if applied.limits:
+            if limits:
                 self._limit(document)
             else:
                 ask(self.herd, document, before)
             if document["obstacle"] != before["obstacle"]:
-                self._change_obstacles(before, document)
+                numbers = self._change_obstacles(before, document)
         self.document = document
-        return applied
+        return Applied(creature, ground, limits, numbers)
 
     def restart(self) -> None:
         """Stand all creatures where they began."""
@@ -178,9 +182,13 @@ class Stage:
             (self._rig({"rig": kind["rig"]}).limited(None), kind["count"])
             for kind in document["crowd"]
         ]
-        world = World(make_place(document, self.given))
+        place = make_place(document, self.files)
+        world = World(place)
         at, heading = (0.0, 0.0), float(document["command"]["heading"])
         if stays:
+            # Time goes on too: what moves is where it would be.
+            world.time = self.world.time
+            place.advance(world.time)
             state = self.herd.state
             at = (float(state.position[0, 0]), float(state.position[0, 2]))
             heading = float(state.heading[0])
@@ -199,10 +207,12 @@ class Stage:
         self.herds = [first, *crowd]
         self.wanderers = Wanderers(crowd, first)
 
-    def _change_obstacles(self, before: Document, document: Document) -> None:
-        change = change_of(before, document, self.world.environment, self.given)
-        if change.environment is not None:
-            self.world.change_place(change.environment, change.renumbered)
+    def _change_obstacles(self, before: Document, document: Document) -> tuple[int, ...] | None:
+        change = change_of(before, document, self.world.environment, self.files)
+        if change.environment is None:
+            return None
+        self.world.change_place(change.environment, change.renumbered)
+        return change.renumbered
 
 
 def _who_walks(document: Document) -> tuple[Any, ...]:

@@ -11,13 +11,19 @@ const EASE = 260; // ms to frame the creature
 const TURN_TIME = 0.35; // s in which side views follow a turn
 const RISE_TIME = 0.4; // s in which views follow the body up and down, so that they do not bob
 
+const SIDE_LIFT = 0.06;
+const MOST_LIFT = 1.2;
+const LIFT_TIME = { up: 0.25, down: 1.2 }; // s in which side views rise before a hill, and sink after
+const LOOKED_FOR = 14; // sizes: how far off hills are looked for
+const HILL_STEPS = 40;
+
 // Title, what it does, and for side views from where: [left, up, forward] of the creature, a
-// little from above, so that the ground is seen.
+// little from above, so that the ground is seen, and farther from above where a hill is between.
 export const CAMERAS = {
   follow: { title: "Follow", hint: "keeps its distance while the creature walks" },
   orbit: { title: "Orbit", hint: "stays where it is" },
-  side: { title: "Side", hint: "from its left", from: [1, 0.06, 0] },
-  front: { title: "Front", hint: "from ahead of it", from: [0, 0.06, 1] },
+  side: { title: "Side", hint: "from its left", from: [1, SIDE_LIFT, 0] },
+  front: { title: "Front", hint: "from ahead of it", from: [0, SIDE_LIFT, 1] },
   // A little from behind, so that ahead is up.
   top: { title: "Top", hint: "from above, ahead is up", from: [0, 1, -1e-3] },
 };
@@ -29,6 +35,10 @@ export class Cameras {
     this.camera = new THREE.PerspectiveCamera(WIDE, 1, 0.01, 1000);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.maxPolarAngle = 0.497 * Math.PI;
+    this.cameFrom = null; // {offset, mode} of a view that went back for a while
+    this.controls.addEventListener("start", () => { this.cameFrom = null; });
+    this.lift = SIDE_LIFT; // of side views: tangent of how far from above they are
+    this.heightAt = null; // (x, z): of the ground
     const kept = localStorage.getItem(KEPT);
     this.mode = kept in CAMERAS ? kept : "follow";
     this.listeners = new Set();
@@ -95,10 +105,11 @@ export class Cameras {
     this.ease(this.camera.position.clone().sub(this.controls.target).setLength(distance), glide);
   }
 
-  // Go back until a place is in the picture, as well as the creature.
+  // Go back until a place is in the picture, as well as the creature; `settle` comes back from there.
   reveal(place) {
     if (this.size === 0) return;
     const offset = this.camera.position.clone().sub(this.controls.target);
+    this.cameFrom ??= { offset: offset.clone(), mode: this.mode };
     const seen = new THREE.PerspectiveCamera();
     const at = new THREE.Vector3();
     for (let distance = offset.length(); distance < this.controls.maxDistance; distance *= FARTHER) {
@@ -112,6 +123,12 @@ export class Cameras {
       if (at.z < 1 && Math.max(Math.abs(at.x), Math.abs(at.y)) < ROOM) break;
     }
     this.ease(offset);
+  }
+
+  // Back to where the view was before `reveal`, if nobody has moved it since.
+  settle() {
+    if (this.cameFrom?.mode === this.mode) this.ease(this.cameFrom.offset);
+    this.cameFrom = null;
   }
 
   // Look at the creature from `to` off it.
@@ -144,7 +161,7 @@ export class Cameras {
       camera.position.add(this.offset);
       controls.target.add(this.offset);
     } else if (this.mode !== "orbit") {
-      this.keepSide();
+      this.keepSide(elapsed);
     }
     if (this.eased) this.glide();
     controls.update();
@@ -188,17 +205,17 @@ export class Cameras {
   }
 
   // A side view: the user may zoom and shift it; who turns it is back to following.
-  keepSide() {
+  keepSide(elapsed) {
     const { camera, controls, offset } = this;
     offset.subVectors(camera.position, controls.target);
     const distance = offset.length();
     const turned = offset.divideScalar(distance).dot(this.direction) < 0.9999;
-    const [left, up, forward] = CAMERAS[this.mode].from;
+    const [left, least, forward] = CAMERAS[this.mode].from;
+    const up = least === SIDE_LIFT ? this.rise(left, forward, elapsed) : least;
     if (turned && this.sided === this.mode) {
       this.choose("follow");
       return;
     }
-    this.sided = this.mode;
     // What it was shifted by turns with the creature.
     const shift = controls.target.sub(this.lastCentre);
     rotateLevel(shift, this.heading - this.lastHeading);
@@ -206,6 +223,30 @@ export class Cameras {
     offset.set(left, up, forward).setLength(distance);
     rotateLevel(offset, this.heading);
     camera.position.copy(controls.target).add(offset);
+    this.sided = this.mode;
+  }
+
+  // How far from above a view is from a side, so that no hill hides the creature.
+  rise(left, forward, elapsed) {
+    const sine = Math.sin(this.heading), cosine = Math.cos(this.heading);
+    const x = left * cosine + forward * sine, z = forward * cosine - left * sine;
+    let wanted = SIDE_LIFT;
+    // Over the way of the view to the feet on this side, in the middle and to either hand.
+    for (const hand of this.heightAt ? [-0.5, 0, 0.5] : []) {
+      const px = this.centre.x + hand * this.size * z, pz = this.centre.z - hand * this.size * x;
+      const foot = this.heightAt(px, pz);
+      for (let i = 1; i <= HILL_STEPS; i++) {
+        const away = (LOOKED_FOR * this.size * i) / HILL_STEPS;
+        const hill = this.heightAt(px + away * x, pz + away * z) - foot;
+        wanted = Math.max(wanted, hill / away);
+      }
+    }
+    wanted = Math.min(wanted, MOST_LIFT);
+    const time = wanted > this.lift ? LIFT_TIME.up : LIFT_TIME.down;
+    this.lift = this.sided === this.mode
+      ? this.lift + (wanted - this.lift) * (1 - Math.exp(-elapsed / time))
+      : wanted;
+    return this.lift;
   }
 
   glide() {

@@ -35,10 +35,13 @@ export class Ground {
     this.edge = Infinity; // m to where it ends
     this.relief = new Relief();
     this.grid = { value: 1 }; // m between strong lines; ten weak ones between two
-    store.on("kinds", ({ ground }) => this.fetch(ground));
+    for (const kind of ["kinds", "backdrop"]) {
+      store.on(kind, () => this.fetch(store.backdrop.ground ?? store.kinds?.ground));
+    }
   }
 
   fetch(number) {
+    if (number === undefined) return;
     this.wanted = number;
     if (number === this.number) return;
     this.store.fetch(`/ground/${number}`)

@@ -51,7 +51,7 @@ export class Handles {
   }
 
   get mesh() {
-    return this.index === null ? undefined : this.obstacles.meshes[this.index];
+    return this.index === null || this.obstacles.past ? undefined : this.obstacles.meshes[this.index];
   }
 
   get obstacle() {
@@ -95,17 +95,12 @@ export class Handles {
     lines.colour(OUTLINE, 0.95);
     for (const [i, j] of EDGES) lines.between(corners, i, j);
     if (this.canTurn) this.drawRing(mesh);
-    if (!this.canResize) return;
     for (const i of UPPER) {
       knobs.addHex(corners[3 * i], corners[3 * i + 1], corners[3 * i + 2], 0, KNOB, 1, SQUARE);
     }
     const knob = this.heightPlace(place);
     lines.add(knob.x, knob.y - STALK * this.ringRadius, knob.z, knob.x, knob.y, knob.z);
     knobs.addHex(knob.x, knob.y, knob.z, 0, OUTLINE, 1, DISC);
-  }
-
-  get canResize() {
-    return this.obstacle?.shape !== "hull";
   }
 
   get canTurn() {
@@ -148,14 +143,12 @@ export class Handles {
     if (!this.mesh) return null;
     this.measure(this.mesh); // where it is now, not where it was drawn last
     const reach = event.pointerType === "touch" ? REACH_TOUCH : REACH_MOUSE;
-    if (this.canResize) {
-      const { rays, place } = this;
-      if (rays.pixelsFrom(this.heightPlace(place), event) < reach) return { part: "height" };
-      const least = Math.min(reach, Math.max(SMALL * this.pixelsWide(), 5));
-      for (const i of UPPER) {
-        place.fromArray(this.corners, 3 * i);
-        if (rays.pixelsFrom(place, event) < least) return { part: "corner", corner: i };
-      }
+    const { rays, place } = this;
+    if (rays.pixelsFrom(this.heightPlace(place), event) < reach) return { part: "height" };
+    const least = Math.min(reach, Math.max(SMALL * this.pixelsWide(), 5));
+    for (const i of UPPER) {
+      place.fromArray(this.corners, 3 * i);
+      if (rays.pixelsFrom(place, event) < least) return { part: "corner", corner: i };
     }
     // Where the ring passes before it or behind it, the obstacle itself is meant.
     this.rays.aim(event);
@@ -199,7 +192,7 @@ export class Handles {
         this.note(this.edit.turn(this.began, place, event.ctrlKey ? TURN_SNAP : 0), event);
         break;
       case "corner":
-        this.note(this.edit.corner(CORNERS[this.grip.corner], place.sub(this.began), event.altKey), event);
+        this.note(this.edit.corner(CORNERS[this.grip.corner], place.sub(this.began), event), event);
         break;
       default:
         this.note(this.edit.height(place.y - this.began.y), event);

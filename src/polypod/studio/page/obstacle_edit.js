@@ -3,6 +3,7 @@
 
 import { THREE } from "three";
 import { Gesture } from "/page/gesture.js";
+import { extentOf, resized, rounded, withSide } from "/page/obstacle_size.js";
 
 const SMALLEST = 0.02; // leg lengths
 const UP = new THREE.Vector3(0, 1, 0);
@@ -15,6 +16,7 @@ export class ObstacleEdit {
     // What moves by itself is not where the document has it begin.
     this.centre = mesh.position.clone();
     this.rotation = mesh.quaternion.clone();
+    this.size = extentOf(this.before).size;
     this.leg = store.creature?.leg_length ?? 1;
     this.changed = false;
   }
@@ -58,40 +60,43 @@ export class ObstacleEdit {
     return `${degrees.toFixed(0)}°`;
   }
 
-  // Drag a corner ([+-0.5] x 3) by `move`; the opposite corner stays, or with Alt the centre.
-  corner(corner, move, symmetric) {
+  // Drag a corner ([+-0.5] x 3) by `move`; the opposite corner stays, or with Alt the centre. With
+  // Shift all sides grow alike.
+  corner(corner, move, { altKey: symmetric, shiftKey: alike }) {
     const local = move.applyQuaternion(this.rotation.clone().invert());
-    const size = [...this.before.size];
-    for (const axis of [0, 2]) {
-      const grown = 2 * corner[axis] * local.getComponent(axis) * (symmetric ? 2 : 1);
-      size[axis] = Math.max(this.before.size[axis] + grown, SMALLEST * this.leg);
-    }
-    // What is round stays round: it goes by the side that was dragged further.
-    if (this.before.shape !== "box" && this.before.shape !== "mesh") {
-      const [dx, dz] = [size[0] - this.before.size[0], size[2] - this.before.size[2]];
-      const axis = Math.abs(dx) > Math.abs(dz) ? 0 : 2;
-      size[0] = size[2] = size[axis];
-      if (this.before.shape === "sphere") size[1] = size[0];
-    }
-    return this.resize(size, symmetric ? [0, 0, 0] : [corner[0], 0, corner[2]]);
+    const grown = (axis) => Math.max(
+      this.size[axis] + 2 * corner[axis] * local.getComponent(axis) * (symmetric ? 2 : 1),
+      this.smallest,
+    );
+    const [x, z] = [grown(0), grown(2)];
+    // What must stay alike goes by the side that was dragged further.
+    const axis = Math.abs(x - this.size[0]) > Math.abs(z - this.size[2]) ? 0 : 2;
+    const side = axis === 0 ? x : z;
+    let size = [x, this.size[1], z];
+    if (alike) size = this.size.map((value) => (value * side) / this.size[axis]);
+    else if (this.round) size = withSide(this.before, this.size, axis, side);
+    return this.resize(size, symmetric ? [0, 0, 0] : [corner[0], alike ? 0.5 : 0, corner[2]]);
   }
 
   height(rise) {
-    const size = [...this.before.size];
-    size[1] = Math.max(size[1] + rise, SMALLEST * this.leg);
-    if (this.before.shape === "sphere") size[0] = size[2] = size[1];
-    return this.resize(size, [0, 0.5, 0]);
+    const side = Math.max(this.size[1] + rise, this.smallest);
+    return this.resize(withSide(this.before, this.size, 1, side), [0, 0.5, 0]);
+  }
+
+  get round() {
+    return ["sphere", "cylinder"].includes(this.before.shape);
+  }
+
+  get smallest() {
+    return SMALLEST * this.leg;
   }
 
   // `toward`: to which corner or side it grows; of a sphere what it lies on stays under it.
   resize(size, toward) {
-    const was = this.before.size;
     const way = this.before.shape === "sphere" ? [toward[0], 0.5, toward[2]] : toward;
-    const shift = new THREE.Vector3(
-      way[0] * (size[0] - was[0]), way[1] * (size[1] - was[1]), way[2] * (size[2] - was[2]),
-    ).applyQuaternion(this.rotation);
-    const [x, y, z] = this.before.position;
-    this.send({ size: rounded(size), position: rounded([x + shift.x, y + shift.y, z + shift.z]) });
+    const shift = way.map((share, axis) => share * (size[axis] - this.size[axis]));
+    const turn = (vector) => new THREE.Vector3(...vector).applyQuaternion(this.rotation).toArray();
+    this.send(resized(this.before, size, shift, turn));
     return size.map((side) => side.toFixed(2)).join(" × ") + " m";
   }
 }
@@ -106,9 +111,4 @@ export function turned(obstacle, angle) {
 
 function wrapped(angle) {
   return Number(Math.atan2(Math.sin(angle), Math.cos(angle)).toFixed(5));
-}
-
-// To a hundredth of a millimetre: what a hand means, and short in a saved scene.
-function rounded(numbers) {
-  return numbers.map((number) => Number(number.toFixed(5)));
 }

@@ -1,8 +1,11 @@
 // The numbers of one obstacle: name, place, size, turn, whether feet may step on it, how it moves.
 
+import { THREE } from "three";
 import { fillChoice, make, makeButton, makeChoice, makeTick } from "/page/elements.js";
 import { Gesture } from "/page/gesture.js";
 import { NumberBox } from "/page/number_box.js";
+import { extentOf, resized, withSide } from "/page/obstacle_size.js";
+import { obstacleStart } from "/page/obstacles.js";
 
 const AXES = ["x", "y", "z"];
 const METRES = { unit: "m", decimals: 3 };
@@ -37,7 +40,7 @@ export class ObstacleForm {
     this.element.hidden = !obstacle;
     if (!obstacle) return;
     // Built anew where it has other rows, and else filled, so that the focus stays.
-    const rows = [this.chosen(), obstacle.shape, motionOf(obstacle), obstacle.path?.length, "size" in obstacle];
+    const rows = [this.chosen(), obstacle.shape, motionOf(obstacle), obstacle.path?.length, obstacle.file];
     if (JSON.stringify(rows) !== this.rows) {
       this.rows = JSON.stringify(rows);
       this.build(obstacle);
@@ -50,6 +53,7 @@ export class ObstacleForm {
 
   build(obstacle) {
     this.boxes = [];
+    this.file = make("span", { class: "grow" }, this.store.files?.meshes[obstacle.file] ?? "");
     this.name = make("input", { type: "text", maxlength: 60, "aria-label": "Name" });
     this.name.addEventListener("change", () => this.change({ name: this.name.value.trim() || null }));
     this.forbidden = makeTick("forbidden to feet", (on) => this.change({ forbidden: on || null }));
@@ -60,7 +64,8 @@ export class ObstacleForm {
     this.element.replaceChildren(
       row("Name", this.name),
       row("Place, m", ...this.three("Place", "position", METRES)),
-      ..."size" in obstacle ? [row("Size, m", ...this.three("Size", "size", METRES))] : [],
+      row("Size, m", ...AXES.map((axis, i) => this.side(axis, i))),
+      ...obstacle.file ? [row("File", this.file)] : [],
       row("Turn", turned, this.forbidden.element),
       row("Motion", this.motion),
       ...this.motionRows(obstacle),
@@ -71,6 +76,27 @@ export class ObstacleForm {
     const box = new NumberBox({ label, ...unit, read: () => read(this.obstacle ?? {}), write });
     this.boxes.push(box);
     return box.element;
+  }
+
+  // A box for one side of it; it grows about its middle, but upward from what it stands on.
+  side(axis, i) {
+    const read = (o) => (o.shape ? extentOf(o).size[i] : null);
+    return this.number(`Size ${axis}`, { ...METRES, tag: axis }, read, (value) => {
+      if (!(value > 0)) {
+        this.store.say("A size is above 0 m.");
+        this.refresh();
+        return;
+      }
+      const { obstacle } = this;
+      const was = extentOf(obstacle).size;
+      const size = withSide(obstacle, was, i, value);
+      const { quaternion, rotation } = obstacleStart(obstacle);
+      const turn = new THREE.Quaternion(...(rotation ?? quaternion));
+      const shift = [0, 0.5 * (size[1] - was[1]), 0];
+      this.change(resized(obstacle, size, shift, (vector) => (
+        new THREE.Vector3(...vector).applyQuaternion(turn).toArray()
+      )));
+    });
   }
 
   // Boxes for x, y and z of a key.

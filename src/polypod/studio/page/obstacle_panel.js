@@ -11,7 +11,7 @@ const NEW = {
   sphere: [0.5, 0.5, 0.5],
 };
 // A sphere is sunk so deep, a share of its height: rocks do not stand on a point.
-const SUNK = { box: 0, cylinder: 0, sphere: 0.4 };
+const SUNK = { sphere: 0.4 };
 
 export class ObstaclePanel {
   constructor(store, scene) {
@@ -40,14 +40,19 @@ export class ObstaclePanel {
 
   async add(shape) {
     const leg = this.store.creature.leg_length;
-    const [x, z] = this.scene.placeAhead();
     const size = NEW[shape].map((share) => rounded(share * leg, leg));
-    const up = this.scene.heightAt(x, z) + size[1] * (0.5 - SUNK[shape]);
-    const position = [rounded(x, leg), up, rounded(z, leg)];
+    await this.put({ shape, size, yaw: 0 }, null, shape);
+  }
+
+  // Have an obstacle stand at `place` [x, z], or ahead of the creature, under a name that is free.
+  async put(obstacle, place, name) {
+    const leg = this.store.creature.leg_length;
+    const around = Math.hypot(obstacle.size[0], obstacle.size[2]) / 2;
+    const [x, z] = (place ?? this.scene.placeAhead(around)).map((value) => rounded(value, leg));
+    const up = this.scene.heightAt(x, z) + obstacle.size[1] * (0.5 - (SUNK[obstacle.shape] ?? 0));
+    const position = [x, up, z];
     const number = this.store.wanted.obstacle.length;
-    await this.store.edit(["obstacle", number], {
-      name: this.freeName(shape), shape, size, position, yaw: 0,
-    });
+    await this.store.edit(["obstacle", number], { name: this.freeName(name), ...obstacle, position });
     if (this.store.document.obstacle.length <= number) return;
     this.choose(number);
     this.scene.reveal(position);

@@ -1,6 +1,7 @@
 // Crates and what else lies about: shapes from the document, places from the frames.
 
 import { THREE } from "three";
+import { decodeArrays } from "/page/frames.js";
 import { hullTriangles } from "/page/hull.js";
 import { blendPose } from "/page/playback.js";
 
@@ -23,7 +24,18 @@ export class Obstacles {
     this.out = new Float32Array(7);
     this.crate = new THREE.MeshLambertMaterial({ color: CRATE });
     this.forbidden = new THREE.MeshLambertMaterial({ map: stripes() });
-    store.on("document", ({ document }) => this.match(document.obstacle));
+    this.geometries = new Map(); // of meshes from files, by their names in documents
+    for (const kind of ["document", "backdrop"]) store.on(kind, () => this.match(this.wanted));
+  }
+
+  // What stands in the frame that is shown: the tape may be of a time when there was less, or more.
+  get wanted() {
+    return this.store.backdrop.obstacle ?? this.store.document?.obstacle ?? [];
+  }
+
+  // Whether they are another time's: they cannot be taken hold of then.
+  get past() {
+    return this.store.backdrop.obstacle !== null;
   }
 
   // Leave out what lies before a plane.
@@ -35,11 +47,9 @@ export class Obstacles {
   match(list) {
     while (this.meshes.length > list.length) this.remove(this.meshes.length - 1);
     list.forEach((obstacle, i) => {
-      const key = obstacle.shape === "hull" || obstacle.shape === "mesh"
-        ? `${obstacle.shape} ${JSON.stringify([obstacle.points, obstacle.file])}`
-        : obstacle.shape;
+      const key = JSON.stringify([obstacle.shape, obstacle.points, obstacle.file]);
       if (this.keys[i] !== key) {
-        if (this.meshes[i]) this.group.remove(this.meshes[i]);
+        if (this.meshes[i]) this.drop(this.meshes[i]);
         this.meshes[i] = this.mesh(obstacle, i);
         this.keys[i] = key;
         this.group.add(this.meshes[i]);
@@ -53,21 +63,42 @@ export class Obstacles {
   }
 
   remove(i) {
-    const mesh = this.meshes[i];
+    this.drop(this.meshes[i]);
+    this.meshes.length = this.keys.length = i;
+  }
+
+  drop(mesh) {
     this.group.remove(mesh);
     if (mesh.userData.own) mesh.geometry.dispose();
-    this.meshes.length = this.keys.length = i;
   }
 
   mesh(obstacle, i) {
     const own = obstacle.shape === "hull";
-    // A mesh from a file is shown as the box that it fills.
-    const geometry = own ? hullGeometry(obstacle.points) : UNIT[obstacle.shape] ?? UNIT.box;
+    const geometry = own ? hullGeometry(obstacle.points) : UNIT[obstacle.shape] ?? new THREE.BufferGeometry();
     const mesh = new THREE.Mesh(geometry, this.crate);
     mesh.userData = { own, obstacle: i };
     mesh.castShadow = true;
     mesh.receiveShadow = true;
+    if (obstacle.shape === "mesh") this.fill(mesh, obstacle.file);
     return mesh;
+  }
+
+  // What a file holds, its box of size 1, once it has come; the box itself where it does not.
+  async fill(mesh, file) {
+    if (!this.geometries.has(file)) this.geometries.set(file, this.fetch(file));
+    mesh.geometry = await this.geometries.get(file);
+  }
+
+  async fetch(file) {
+    try {
+      const answer = await this.store.fetch(`/mesh/${encodeURIComponent(file)}`);
+      const { place, normal } = decodeArrays(await answer.arrayBuffer()).arrays;
+      return solidGeometry(place.data, normal.data);
+    } catch (problem) {
+      this.store.say(`A mesh did not come: ${problem.message}`);
+      this.geometries.delete(file);
+      return UNIT.box;
+    }
   }
 
   // Until a frame says where it is: where the document has it begin.
@@ -101,8 +132,12 @@ export function obstacleStart(obstacle) {
 }
 
 function hullGeometry(points) {
+  return solidGeometry(hullTriangles(points));
+}
+
+// Triangles [T * 9] with normals, or flat ones.
+function solidGeometry(places, normals) {
   const geometry = new THREE.BufferGeometry();
-  const places = hullTriangles(points);
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
   // Stripes run across it in plan, as they do on the sides of a box.
   const plan = new Float32Array((places.length / 3) * 2);
@@ -111,7 +146,8 @@ function hullGeometry(points) {
     plan[2 * i + 1] = 3 * (places[3 * i + 2] + places[3 * i + 1]);
   }
   geometry.setAttribute("uv", new THREE.BufferAttribute(plan, 2));
-  geometry.computeVertexNormals();
+  if (normals) geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+  else geometry.computeVertexNormals();
   return geometry;
 }
 

@@ -10,7 +10,7 @@ export const OVERLAYS = {
   route: { title: "Way to go", server: false, legend: [["#6cb4ee", "path and goal"]] },
   targets: { title: "Foot targets", server: false, legend: [["#e6ebf0", "ring: target, diamond: preferred place"]] },
   paths: { title: "Foot paths, 2D and 3D", server: true, legend: [["#e6ebf0", "thin: in the plan, strong: in space"]] },
-  candidates: { title: "Candidate footprints", server: true, legend: [["#2ecc5a", "best"], ["#2a54e0", "worst"]] },
+  candidates: { title: "Candidate footprints", server: true, legend: [["#2ecc5a", "best"], ["#2a54e0", "worst"], ["#e6ebf0", "ring: of which foot"]] },
   cells: {
     title: "Map cells", server: true,
     legend: [

@@ -52,6 +52,7 @@ export class Rays {
   }
 
   obstacle() {
+    if (this.obstacles.past) return null;
     const [hit] = this.caster.intersectObjects(this.obstacles.meshes, false);
     if (!hit) return null;
     return { index: hit.object.userData.obstacle, point: hit.point, distance: hit.distance };

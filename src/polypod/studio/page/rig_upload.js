@@ -1,6 +1,7 @@
-// A GLB from the user's disk, chosen or dropped anywhere on the page, sent with progress.
+// A rig from the user's disk, chosen or dropped anywhere on the page, sent with progress.
 
 import { make, makeButton } from "/page/elements.js";
+import { sendFile } from "/page/upload.js";
 
 const MOST = 64 * 2 ** 20; // bytes
 
@@ -16,29 +17,7 @@ export class RigUpload {
     this.bar = make("progress", { max: 1, hidden: true, "aria-label": "Sending the rig" });
     this.button = makeButton("Open a GLB…", () => this.file.click());
     this.element = make("span", { class: "row" }, this.button, this.file, this.bar);
-    this.cover = make("div", { class: "drop", hidden: true }, "Drop a GLB here to see whether it can walk");
-    document.body.append(this.cover);
-    this.watchDrops();
-  }
-
-  // The whole page takes files; what is no file (a text, a picture of the page) goes its own way.
-  watchDrops() {
-    const carriesFiles = (event) => event.dataTransfer?.types.includes("Files");
-    window.addEventListener("dragover", (event) => {
-      if (!carriesFiles(event)) return;
-      event.preventDefault();
-      event.dataTransfer.dropEffect = "copy";
-      this.cover.hidden = false;
-    });
-    window.addEventListener("dragleave", (event) => {
-      if (event.relatedTarget === null) this.cover.hidden = true;
-    });
-    window.addEventListener("drop", (event) => {
-      this.cover.hidden = true;
-      if (!carriesFiles(event)) return;
-      event.preventDefault();
-      this.send(event.dataTransfer.files[0]);
-    });
+    store.on("rigfile", (file) => this.send(file)); // dropped on the page
   }
 
   async send(file) {
@@ -48,44 +27,20 @@ export class RigUpload {
       this.store.say(why);
       return;
     }
-    this.bar.hidden = false;
     this.button.disabled = true;
     try {
-      this.taken(await this.post(file));
+      this.taken(await sendFile(this.store, "/rig", file, this.bar));
     } catch (error) {
       this.store.say(`${file.name}: ${error.message}`);
     } finally {
-      this.bar.hidden = true;
       this.button.disabled = false;
     }
-  }
-
-  // By XMLHttpRequest, for `fetch` tells nothing of how far an upload is.
-  post(file) {
-    return new Promise((resolve, reject) => {
-      const request = new XMLHttpRequest();
-      request.open("POST", `/rig?name=${encodeURIComponent(file.name)}`);
-      request.setRequestHeader("X-Polypod-Token", this.store.token);
-      request.setRequestHeader("Content-Type", "model/gltf-binary");
-      request.responseType = "json";
-      request.upload.onprogress = (event) => {
-        // All sent: the server reads it, for which there is no measure.
-        if (event.loaded < event.total) this.bar.value = event.loaded / event.total;
-        else this.bar.removeAttribute("value");
-      };
-      request.onload = () => {
-        if (request.status === 200) resolve(request.response);
-        else reject(new Error(request.response?.why ?? `${request.status} ${request.statusText}`));
-      };
-      request.onerror = () => reject(new Error("the studio cannot be reached"));
-      request.send(file);
-    });
   }
 }
 
 function refusal(file) {
   if (!/\.glb$/i.test(file.name)) {
-    return `${file.name} is no GLB; export the rig as one file that ends in .glb.`;
+    return `${file.name} is no GLB; export a rig as one file that ends in .glb.`;
   }
   const size = (file.size / 2 ** 20).toFixed(0);
   return file.size > MOST ? `${file.name} has ${size} MiB; a rig may have 64.` : null;

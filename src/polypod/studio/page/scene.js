@@ -20,6 +20,9 @@ const SLOW = 24; // pictures a second
 const JUDGED_EVERY = 3; // s
 const HELD = 0.5; // of the fineness, while something is dragged and pictures come slowly
 const PRINT = 2; // pixels of a picture that is kept, for one of the view's
+const SMALL = 0.5; // radii of the creature: what reaches no farther is as good as a point
+const SEEN = 0.8; // of the half picture: what is new is well within
+const TURNS = [0, 0.5, -0.5, 1, -1]; // rad off the creature's heading, where there is room for it
 const AHEAD = 1.5; // radii of the creature: nearer than that, a new thing would be under it
 
 export function mountScene(element, store) {
@@ -73,6 +76,7 @@ class Scene {
     const note = (text, event) => this.toolbar.note(text, event);
     note("");
     this.cameras = new Cameras(canvas);
+    this.cameras.heightAt = (x, z) => this.heightAt(x, z);
     this.renderer.localClippingEnabled = true;
     this.obstacles.clip(this.cameras.curtain);
     this.rays = new Rays(this.cameras, canvas, this);
@@ -81,6 +85,8 @@ class Scene {
       store, scene, canvas, note, rays: this.rays, handles: this.handles, ground: this.ground,
       cameras: this.cameras, creatures: this.creatures,
     });
+    // What a view went back for is no longer what is looked at.
+    this.handles.onSelect((index) => { if (index === null) this.cameras.settle(); });
     this.tools.onMode((mode) => this.toolbar.show(mode));
   }
 
@@ -179,12 +185,17 @@ class Scene {
     this.cameras.frame();
   }
 
-  // Have a place of the world in the picture, [x, y, z]; where it is already, nothing moves.
+  // Have a place of the world in the picture, [x, y, z], until no obstacle is chosen any more; where
+  // it is already, nothing moves.
   reveal(place) {
-    const [x, y] = this.pixelsOf(place);
-    const { left, right, top, bottom } = this.canvas.getBoundingClientRect();
-    if (x > left && x < right && y > top && y < bottom) return;
-    this.cameras.reveal(new THREE.Vector3(...place));
+    if (!this.sees(place, 1)) this.cameras.reveal(new THREE.Vector3(...place));
+  }
+
+  // Whether a place is within so much of the half picture.
+  sees([x, y, z], share) {
+    const place = new THREE.Vector3(x, y, z);
+    const seen = place.clone().project(this.cameras.camera);
+    return seen.z < 1 && Math.max(Math.abs(seen.x), Math.abs(seen.y)) < share;
   }
 
   // Choose an obstacle by its number, or null.
@@ -200,15 +211,36 @@ class Scene {
     return this.ground.relief.height(x, z);
   }
 
-  // Where a new thing goes, [x, z]: on the ground in the view's middle, but not under the creature.
-  placeAhead() {
-    const { centre, size, heading } = this.cameras;
+  // Where an event is on the ground, [x, z], or null.
+  placeAt(event) {
+    if (document.elementFromPoint(event.clientX, event.clientY) !== this.canvas) return null;
+    this.rays.aim(event);
+    const place = this.rays.groundPlace();
+    return place && [place.x, place.z];
+  }
+
+  // Where a new thing goes, [x, z]: on the ground in the view's middle, but not under the creature;
+  // or ahead of it, where that is in the picture. The thing reaches `around` [m] about it.
+  placeAhead(around = 0) {
+    const { centre, size } = this.cameras;
+    const least = AHEAD * size + Math.max(around - SMALL * size, 0);
     this.rays.at(0, 0);
     const place = this.rays.groundPlace();
     const near = place ? Math.hypot(place.x - centre.x, place.z - centre.z) : Infinity;
-    if (near > AHEAD * size && near < 20 * size) return [place.x, place.z];
-    const ahead = 2 * AHEAD * size;
-    return [centre.x + ahead * Math.sin(heading), centre.z + ahead * Math.cos(heading)];
+    if (near > least && near < 20 * size) return [place.x, place.z];
+    for (const turn of TURNS) {
+      for (let far = 2; far >= 1; far -= 0.25) {
+        const [x, z] = this.ahead(far * least, turn);
+        if (this.sees([x, this.heightAt(x, z), z], SEEN)) return [x, z];
+      }
+    }
+    return this.ahead(2 * least, 0);
+  }
+
+  // A place [x, z] so far off the creature, m, and so far off its heading, rad.
+  ahead(away, turn) {
+    const { centre, heading } = this.cameras;
+    return [centre.x + away * Math.sin(heading + turn), centre.z + away * Math.cos(heading + turn)];
   }
 
   // Where a place of the world is on the page, [x, y] in pixels.

@@ -12,6 +12,8 @@ export class Store {
     this.verdict = null;
     this.tape = { recording: false, frames: 0, seconds: 0, scrub: null };
     this.welcome = null;
+    this.files = null; // meshes and grounds that are there
+    this.backdrop = { obstacle: null, ground: null }; // what stood in the frame of the tape that is shown
     this.drives = false;
     this.canUndo = false;
     this.canRedo = false;
@@ -24,7 +26,7 @@ export class Store {
   }
 
   // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
-  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words". Returns how to stop.
+  // "verdict", "tape", "files", "backdrop", "welcome", "role", "frame", "arrays", "link", "words". Returns how to stop.
   on(kind, listener) {
     if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
     this.listeners.get(kind).add(listener);

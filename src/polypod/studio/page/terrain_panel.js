@@ -33,7 +33,8 @@ export class TerrainPanel {
   }
 
   refresh() {
-    const { generators, given } = this.store.welcome;
+    const { generators } = this.store.welcome;
+    const given = this.store.files.grounds;
     const names = [FLAT, ...Object.keys(generators)].map((name) => [name, name]);
     const scenes = given.map((name) => [GIVEN + name, `of ${name}`]);
     fillChoice(this.choice, [...names, ...scenes], this.generator);

@@ -13,7 +13,7 @@ export const MODES = {
   walk: { title: "Walk", hint: "Click the ground to send it there, with Shift to add a place. Drag its body to push it." },
   path: { title: "Draw a path", hint: "Drag over the ground to draw the way it takes." },
   push: { title: "Push", hint: "Drag from a creature: it is pushed when you let go." },
-  crate: { title: "Crates", hint: "Click a crate; drag it, its ring to turn it, its corners to resize it. Delete removes it." },
+  crate: { title: "Crates", hint: "Click a crate; drag it, its ring to turn it, its corners to resize it (Shift: all sides alike). Delete removes it." },
 };
 
 export class Tools {
