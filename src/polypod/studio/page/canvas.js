@@ -9,7 +9,9 @@ export function fit(canvas) {
     canvas.width = width * ratio;
     canvas.height = height * ratio;
   }
-  const context = canvas.getContext("2d");
+  // Drawn by the processor: a few lines and words are no work for a GPU, and where there is none the
+  // browser would have to act one, which takes longer than the whole scene.
+  const context = canvas.getContext("2d", { willReadFrequently: true });
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   return { context, width, height };
