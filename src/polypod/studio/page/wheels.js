@@ -1,5 +1,6 @@
 // All wheels, laid out as the creature stands: left and right by side, fore above hind.
 
+import { redraw } from "/page/canvas.js";
 import { disksInUse, disksOf, isDrawn, needleNow } from "/page/disks.js";
 import { make } from "/page/elements.js";
 import { shortNames } from "/page/foot_names.js";
@@ -9,6 +10,7 @@ import { bindWheel } from "/page/wheels_edit.js";
 
 const SIZES = [[2, 132], [3, 108]]; // rows, and pixels of a wheel
 const SMALLEST = 84;
+const FRAMES_A_SECOND = 60;
 const FINGER = 12; // px round a handle's middle
 
 export class Wheels {
@@ -20,7 +22,7 @@ export class Wheels {
     this.element = make("div", { class: "wheels", role: "group", "aria-label": "Gait wheels" });
     store.on("creature", () => this.build());
     store.on("document", () => this.showAsked());
-    store.on("frame", () => this.showFrame());
+    store.on("frame", redraw(FRAMES_A_SECOND, () => this.showFrame()));
     this.build();
     const turn = () => {
       requestAnimationFrame(turn);
