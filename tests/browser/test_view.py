@@ -19,7 +19,7 @@ CRATE = {
 # How many pieces of an overlay are in the picture.
 PIECES = """(parts) => parts.reduce((sum, path) => {
   const part = path.split(".").reduce((at, name) => at[name], polypod.scene.overlays);
-  return sum + part.mesh.geometry.instanceCount;
+  return sum + part.count;
 }, 0)"""
 PARTS = {
     "Way to go": ["body.lines"],

@@ -50,6 +50,7 @@ class Conductor:
         self._overlays = Overlays()
         self._wished: frozenset[str] = frozenset()
         self._overlays_told = 0.0
+        self._overlays_of = -1  # number of the frame with which they were sent last
         self._tell = tell
         self.newest = b""  # the frame sent last
         self._judge = Judge()
@@ -131,12 +132,16 @@ class Conductor:
         """Send these overlays from now on."""
         self._wished = overlays
         self._overlays_told = 0.0
+        self._overlays_of = -1
 
     def _send_overlays(self) -> None:
         now = time.perf_counter()
         if not self._wished or now - self._overlays_told < OVERLAY_EVERY:
             return
-        self._overlays_told = now
+        # Where nothing has moved nothing is seen anew.
+        if self.number == self._overlays_of:
+            return
+        self._overlays_told, self._overlays_of = now, self.number
         for name, content in self._overlays.of(self.stage, self.focus, self._wished):
             self._tell(Telling("arrays", content, name))
 

@@ -3,6 +3,7 @@
 import { addStyle, fillChoice, make, makeButton, makeChoice } from "/page/elements.js";
 import { CAMERAS } from "/page/cameras.js";
 import { OverlayMenu } from "/page/overlay_menu.js";
+import { QUALITIES } from "/page/painter.js";
 import { Rates } from "/page/rates.js";
 
 const SLOWEST = 0.1;
@@ -84,7 +85,18 @@ function viewPart(scene) {
   });
   const frame = makeButton("Frame", () => scene.frame(), { title: "Show the whole creature (F)" });
   return make("div", { class: "group", role: "group", "aria-label": "View" },
-    camera, frame, new OverlayMenu(scene.overlays).element);
+    camera, frame, new OverlayMenu(scene.overlays).element, qualityChoice(scene.painter));
+}
+
+// How finely it is drawn.
+function qualityChoice(painter) {
+  const choice = makeChoice("Picture quality", (pinned) => painter.choose(pinned));
+  fillChoice(choice, Object.entries(QUALITIES).map(([name, { title }]) => [name, title]), painter.pinned);
+  painter.onChange(() => {
+    choice.value = painter.pinned;
+    choice.title = `Picture quality: ${QUALITIES[painter.pinned].hint}`;
+  });
+  return choice;
 }
 
 function historyPart(store) {

@@ -1,10 +1,12 @@
 // The Body panel: where it walks and how fast, how it holds itself, what moves its trunk, pushes.
 
+import { redraw } from "/page/canvas.js";
 import { addStyle, make, makeSection } from "/page/elements.js";
 import { HeadingPad } from "/page/heading_pad.js";
 import { PushPad } from "/page/push_pad.js";
 import { documentSlider } from "/page/slider.js";
 
+const FRAMES_A_SECOND = 60;
 const LIVE = 250; // ms between the numbers of what follows by itself
 // Settings are scales; 1 is what the creature's build and gait imply.
 const SCALE = { least: 0, most: 2, default: 1, unit: "×", step: 0.05 };
@@ -69,9 +71,10 @@ export function mountBody(element, store) {
 // What follows by itself changes with the frames; nothing is drawn while the panel is hidden.
 function followFrames(element, store, pad, automatic) {
   let last = 0;
-  store.on("frame", (frame) => {
+  const turn = redraw(FRAMES_A_SECOND, () => pad.follow(store.frame));
+  store.on("frame", () => {
     if (element.hidden || !store.document || !store.creature) return;
-    pad.follow(frame);
+    turn();
     if (performance.now() - last < LIVE) return;
     last = performance.now();
     for (const slider of automatic) slider.refresh();

@@ -9,7 +9,9 @@ export function fit(canvas) {
     canvas.width = width * ratio;
     canvas.height = height * ratio;
   }
-  const context = canvas.getContext("2d");
+  // Drawn by the processor: a few lines and words are no work for a GPU, and where there is none the
+  // browser would have to act one, which takes longer than the whole scene.
+  const context = canvas.getContext("2d", { willReadFrequently: true });
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, width, height);
   return { context, width, height };
@@ -30,6 +32,10 @@ export function palette() {
   return colours;
 }
 
+// How often a second anything on the page is redrawn at most: seldom where pictures come slowly, for
+// then each takes from the scene what it takes.
+export const pace = { most: 60 };
+
 // Call `draw` at most `rate` times a second, and only while something new has come.
 export function redraw(rate, draw) {
   let due = false;
@@ -37,7 +43,7 @@ export function redraw(rate, draw) {
   let last = -Infinity;
   const go = (now) => {
     timer = 0;
-    if (now - last < 1000 / rate) {
+    if (now - last < 990 / Math.min(rate, pace.most)) {
       timer = requestAnimationFrame(go);
       return;
     }

@@ -1,16 +1,19 @@
 // A coarser skin for creatures that look small: vertices that are close together, belong to the
 // same joint and face the same way become one. Facing keeps thin legs from closing to nothing.
 
-const CELLS = 7; // along the radius of the creature
+// `cells` along the radius of the creature; `facing` tells ways apart: by octants, or by the sides of a
+// tetrahedron, to which a leg is still as thick as it is.
+export const COARSE = { cells: 7, facing: octant };
+export const CRUDE = { cells: 2.5, facing: side };
 
 // From the arrays of a skin, the same arrays with fewer vertices.
-export function coarsened(arrays, radius) {
+export function coarsened(arrays, radius, { cells, facing } = COARSE) {
   const { place, normal, joint, weight, colour, triangles } = arrays;
-  const cell = radius / CELLS;
+  const cell = radius / cells;
   const found = new Map();
   const into = new Uint32Array(place.shape[0]);
   for (let v = 0; v < place.shape[0]; v++) {
-    const key = keyOf(place.data, normal.data, joint.data, weight.data, v, cell);
+    const key = keyOf(place.data, normal.data, joint.data, weight.data, v, cell, facing);
     if (!found.has(key)) found.set(key, found.size);
     into[v] = found.get(key);
   }
@@ -43,12 +46,21 @@ export function coarsened(arrays, radius) {
   return out;
 }
 
-function keyOf(place, normal, joint, weight, v, cell) {
+function octant(x, y, z) {
+  return (x > 0 ? 1 : 0) | (y > 0 ? 2 : 0) | (z > 0 ? 4 : 0);
+}
+
+function side(x, y, z) {
+  const toward = [x + y + z, x - y - z, y - x - z, z - x - y];
+  return toward.indexOf(Math.max(...toward));
+}
+
+function keyOf(place, normal, joint, weight, v, cell, facing) {
   let strongest = 4 * v;
   for (let n = 4 * v + 1; n < 4 * v + 4; n++) if (weight[n] > weight[strongest]) strongest = n;
-  const facing = (normal[3 * v] > 0 ? 1 : 0) | (normal[3 * v + 1] > 0 ? 2 : 0) | (normal[3 * v + 2] > 0 ? 4 : 0);
+  const way = facing(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]);
   const [x, y, z] = [0, 1, 2].map((i) => Math.floor(place[3 * v + i] / cell));
-  return `${x} ${y} ${z} ${joint[strongest]} ${facing}`;
+  return `${x} ${y} ${z} ${joint[strongest]} ${way}`;
 }
 
 function finish(out, sums, w, members) {

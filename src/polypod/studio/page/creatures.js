@@ -1,25 +1,24 @@
-// All creatures: a herd for each kind, drawn in two calls: those near by, and those that look small.
-// Who is out of sight is not drawn at all.
+// All creatures: a herd for each kind, drawn in three calls: those near by, those that look small, and
+// those that look tiny. Who is out of sight is not drawn at all.
 
 import { THREE } from "three";
 import { blendPose } from "/page/playback.js";
 import { decodeArrays } from "/page/frames.js";
-import { coarsened } from "/page/coarse.js";
-import { dropMesh, herdMesh, poseTexture, showRows } from "/page/skinning.js";
+import { COARSE, coarsened, CRUDE } from "/page/coarse.js";
+import { dropMesh, herdMesh, poseTexture, shine, showRows } from "/page/skinning.js";
 
-const FINE = 1200; // vertices: with fewer there is no coarser skin
+const FINE = 300; // vertices: with fewer there are no coarser skins
 const SHADOW = 3; // radii about a creature in which its shadow may still be seen
 
 export class Creatures {
-  // `small`: how many pixels high a creature is drawn with its coarser skin.
-  constructor(scene, store, small) {
+  constructor(scene, store) {
     this.scene = scene;
     this.store = store;
-    this.small = small;
     this.frustum = new THREE.Frustum();
     this.matrix = new THREE.Matrix4();
     this.ball = new THREE.Sphere();
     this.herds = [];
+    this.refine([0, 0], true);
     this.skins = new Map(); // N: promise of arrays
     store.on("kinds", ({ kinds }) => this.rebuild(kinds));
   }
@@ -36,9 +35,23 @@ export class Creatures {
     for (const n of this.skins.keys()) if (!wanted.has(n)) this.skins.delete(n);
     for (const herd of this.herds) {
       this.skin(herd.skin)
-        .then((arrays) => { if (this.herds.includes(herd)) herd.dress(this.scene, arrays); })
+        .then((arrays) => { if (this.herds.includes(herd)) this.dress(herd, arrays); })
         .catch((problem) => this.store.say(`A creature's skin did not come: ${problem.message}.`));
     }
+  }
+
+  dress(herd, arrays) {
+    herd.dress(this.scene, arrays, this.lit);
+    this.store.tell("skin", herd.skin);
+  }
+
+  // Draw creatures with their coarse and their crude skin that are less than `small` pixels high, and
+  // let them shine a little or not.
+  refine(small, lit) {
+    this.small = small;
+    if (this.lit === lit) return;
+    this.lit = lit;
+    for (const { skins } of this.herds) for (const mesh of skins) shine(mesh, lit);
   }
 
   // The arrays of /skin/N, fetched once.
@@ -68,26 +81,25 @@ export class Creatures {
     camera.updateMatrixWorld();
     this.matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     this.frustum.setFromProjectionMatrix(this.matrix);
-    for (const herd of this.herds) if (herd.fine && herd.posed) this.chooseOf(herd, camera, height);
+    for (const herd of this.herds) if (herd.skins.length && herd.posed) this.chooseOf(herd, camera, height);
   }
 
   chooseOf(herd, camera, height) {
-    const { ball, frustum } = this;
-    const { fine, coarse } = herd;
-    const near = fine.geometry.getAttribute("row").array;
-    const far = coarse?.geometry.getAttribute("row").array;
-    let nearCount = 0, farCount = 0;
+    const { ball, frustum, small } = this;
+    const { skins } = herd;
+    const rows = skins.map((mesh) => mesh.geometry.getAttribute("row").array);
+    const counts = skins.map(() => 0);
     for (let c = 0; c < herd.count; c++) {
       ball.center.fromArray(herd.poses, herd.bodyAt(c) + 4);
       ball.radius = SHADOW * herd.radius;
       if (!frustum.intersectsSphere(ball)) continue;
       const distance = ball.center.distanceTo(camera.position);
       const pixels = (herd.radius * height * camera.projectionMatrix.elements[5]) / distance;
-      if (far && pixels < this.small) far[farCount++] = c;
-      else near[nearCount++] = c;
+      const wanted = pixels < small[1] ? 2 : pixels < small[0] ? 1 : 0;
+      const skin = Math.min(wanted, skins.length - 1);
+      rows[skin][counts[skin]++] = c;
     }
-    showRows(fine, nearCount);
-    if (coarse) showRows(coarse, farCount);
+    skins.forEach((mesh, n) => showRows(mesh, counts[n]));
   }
 
   // Where the poses of the creature in focus begin in its herd's array, or null.
@@ -107,28 +119,32 @@ class Herd {
     this.poses = this.texture.image.data; // [count, joints, 8]: quaternion, shift, spare
     this.stride = 8 * joints;
     this.arrays = null;
-    this.fine = null; // meshes
-    this.coarse = null;
+    this.skins = []; // meshes: fine, coarse, crude
     this.posed = false;
     this.box = null; // [6] least and most of the skin at rest, body frame
     this.radius = 0; // m about the body that holds the skin
   }
 
-  dress(scene, arrays) {
+  dress(scene, arrays, lit) {
     this.arrays = arrays;
     this.box = boxOf(arrays.place.data);
     const [x0, y0, z0, x1, y1, z1] = this.box;
     this.radius = 0.5 * Math.hypot(x1 - x0, y1 - y0, z1 - z0);
-    this.fine = herdMesh(arrays, this.texture, this.count);
-    scene.add(this.fine);
+    this.add(scene, arrays, lit);
     if (arrays.place.shape[0] < FINE) return;
-    this.coarse = herdMesh(coarsened(arrays, this.radius), this.texture, this.count);
-    scene.add(this.coarse);
+    for (const how of [COARSE, CRUDE]) this.add(scene, coarsened(arrays, this.radius, how), lit);
+  }
+
+  add(scene, arrays, lit) {
+    const mesh = herdMesh(arrays, this.texture, this.count);
+    shine(mesh, lit);
+    this.skins.push(mesh);
+    scene.add(mesh);
   }
 
   drop(scene) {
     this.texture.dispose();
-    for (const mesh of [this.fine, this.coarse]) if (mesh) dropMesh(scene, mesh);
+    for (const mesh of this.skins) dropMesh(scene, mesh);
   }
 
   update(from, to, share) {

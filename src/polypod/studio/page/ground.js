@@ -74,6 +74,7 @@ export class Ground {
       this.scene.add(this.mesh);
     }
     this.relief.take(place.data, triangles.data);
+    this.store.tell("ground", number);
   }
 
   material() {

@@ -3,6 +3,7 @@
 
 import { make, makeSvg } from "/page/elements.js";
 import { Gesture } from "/page/gesture.js";
+import { MOVE } from "/page/moves.js";
 import { NumberBox } from "/page/number_box.js";
 import { headFor, headingOf, spokenDirection, turnBy } from "/page/steer.js";
 
@@ -64,7 +65,7 @@ export class HeadingPad {
       this.gesture.begin();
       head(event);
     });
-    pad.addEventListener("pointermove", (event) => {
+    pad.addEventListener(MOVE, (event) => {
       if (pad.hasPointerCapture(event.pointerId)) head(event);
     });
     pad.addEventListener("keydown", (event) => this.key(event));

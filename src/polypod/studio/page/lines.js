@@ -2,6 +2,7 @@
 // screen as they are, without light or fog, so that they are those of the panels.
 
 import { THREE } from "three";
+import { Quads } from "/page/quads.js";
 
 const VERTEX = `
 uniform vec2 resolution;
@@ -36,57 +37,26 @@ const FRAGMENT = `
 varying vec4 vTint;
 void main() { gl_FragColor = vTint; }`;
 
-// Two triangles: x along the line, y across it.
-const CORNERS = new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 0]);
+// x along the line, y across it.
+const ACROSS = [[0, -1, 0], [1, -1, 0], [1, 1, 0], [0, 1, 0]];
 
 // Shared by all lines: the size of the picture in pixels of the screen.
 export const resolution = { value: new THREE.Vector2(1, 1) };
 
-export class Lines {
+export class Lines extends Quads {
   // `over`: drawn over everything, else hidden by what is in front.
   constructor(scene, { width = 2, over = false, order = 10 } = {}) {
-    this.material = new THREE.ShaderMaterial({
-      uniforms: { resolution, width: { value: width }, lift: { value: over ? 0 : 2e-4 } },
-      vertexShader: VERTEX, fragmentShader: FRAGMENT,
-      transparent: true, depthTest: !over, depthWrite: false, side: THREE.DoubleSide,
+    super(scene, {
+      material: new THREE.ShaderMaterial({
+        uniforms: { resolution, width: { value: width }, lift: { value: over ? 0 : 2e-4 } },
+        vertexShader: VERTEX, fragmentShader: FRAGMENT,
+        transparent: true, depthTest: !over, depthWrite: false, side: THREE.DoubleSide,
+      }),
+      parts: [["start", 3], ["end", 3], ["tint", 4]],
+      across: ACROSS,
+      order: over ? order + 100 : order,
     });
-    this.mesh = new THREE.Mesh(new THREE.InstancedBufferGeometry(), this.material);
-    this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = over ? order + 100 : order;
-    this.capacity = 0;
-    this.count = 0;
     this.tint = new Float32Array(4);
-    this.grow(64);
-    scene.add(this.mesh);
-  }
-
-  grow(capacity) {
-    const ends = new Float32Array(6 * capacity);
-    const tints = new Float32Array(4 * capacity);
-    if (this.capacity) {
-      ends.set(this.ends);
-      tints.set(this.tints);
-      this.mesh.geometry.dispose();
-    }
-    this.ends = ends;
-    this.tints = tints;
-    this.capacity = capacity;
-    const geometry = new THREE.InstancedBufferGeometry();
-    this.endBuffer = new THREE.InstancedInterleavedBuffer(ends, 6);
-    this.endBuffer.setUsage(THREE.DynamicDrawUsage);
-    this.tintBuffer = new THREE.InstancedBufferAttribute(tints, 4);
-    this.tintBuffer.setUsage(THREE.DynamicDrawUsage);
-    geometry.setAttribute("position", new THREE.BufferAttribute(CORNERS, 3));
-    geometry.setAttribute("start", new THREE.InterleavedBufferAttribute(this.endBuffer, 3, 0));
-    geometry.setAttribute("end", new THREE.InterleavedBufferAttribute(this.endBuffer, 3, 3));
-    geometry.setAttribute("tint", this.tintBuffer);
-    geometry.instanceCount = this.count;
-    this.mesh.geometry = geometry;
-  }
-
-  clear() {
-    this.count = 0;
-    return this;
   }
 
   // The colour of what is added from now on: "#rrggbb".
@@ -98,13 +68,12 @@ export class Lines {
   }
 
   add(ax, ay, az, bx, by, bz) {
-    if (this.count === this.capacity) this.grow(2 * this.capacity);
-    const { ends, tints, tint } = this;
-    let at = 6 * this.count;
-    ends[at++] = ax; ends[at++] = ay; ends[at++] = az;
-    ends[at++] = bx; ends[at++] = by; ends[at++] = bz;
-    tints.set(tint, 4 * this.count);
-    this.count += 1;
+    const at = this.next();
+    const { rows, tint } = this;
+    rows[at] = ax; rows[at + 1] = ay; rows[at + 2] = az;
+    rows[at + 3] = bx; rows[at + 4] = by; rows[at + 5] = bz;
+    rows[at + 6] = tint[0]; rows[at + 7] = tint[1]; rows[at + 8] = tint[2]; rows[at + 9] = tint[3];
+    this.spread(at);
   }
 
   // A polyline through points [N, 3] of a flat array, from number `first` to before `after`.
@@ -117,19 +86,6 @@ export class Lines {
       points[3 * i], points[3 * i + 1], points[3 * i + 2],
       points[3 * j], points[3 * j + 1], points[3 * j + 2],
     );
-  }
-
-  // Show what was added since `clear`.
-  commit() {
-    this.mesh.geometry.instanceCount = this.count;
-    this.mesh.visible = this.count > 0;
-    if (this.count === 0) return;
-    this.endBuffer.clearUpdateRanges();
-    this.endBuffer.addUpdateRange(0, 6 * this.count);
-    this.endBuffer.needsUpdate = true;
-    this.tintBuffer.clearUpdateRanges();
-    this.tintBuffer.addUpdateRange(0, 4 * this.count);
-    this.tintBuffer.needsUpdate = true;
   }
 }
 

@@ -3,6 +3,7 @@
 
 import { THREE } from "three";
 import { hexPart, resolution } from "/page/lines.js";
+import { Quads } from "/page/quads.js";
 
 export const DISC = 0;
 export const RING = 1;
@@ -49,76 +50,37 @@ void main() {
   gl_FragColor = vec4(vTint.rgb * (1.0 - 0.35 * rim), vTint.a);
 }`;
 
-const CORNERS = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0]);
+const ACROSS = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]];
 
-export class Marks {
+export class Marks extends Quads {
   constructor(scene, { over = false, facing = false, leastPixels = 0, order = 5 } = {}) {
-    this.material = new THREE.ShaderMaterial({
-      uniforms: {
-        resolution, lift: { value: over ? 0 : 1e-4 }, facing: { value: facing ? 1 : 0 },
-        leastPixels: { value: leastPixels },
-      },
-      vertexShader: VERTEX, fragmentShader: FRAGMENT,
-      transparent: true, depthTest: !over, depthWrite: false, side: THREE.DoubleSide,
+    super(scene, {
+      material: new THREE.ShaderMaterial({
+        uniforms: {
+          resolution, lift: { value: over ? 0 : 1e-4 }, facing: { value: facing ? 1 : 0 },
+          leastPixels: { value: leastPixels },
+        },
+        vertexShader: VERTEX, fragmentShader: FRAGMENT,
+        transparent: true, depthTest: !over, depthWrite: false, side: THREE.DoubleSide,
+      }),
+      parts: [["place", 3], ["size", 2], ["tint", 4], ["shape", 1]],
+      across: ACROSS,
+      order: over ? order + 100 : order,
     });
-    this.mesh = new THREE.Mesh(new THREE.InstancedBufferGeometry(), this.material);
-    this.mesh.frustumCulled = false;
-    this.mesh.renderOrder = over ? order + 100 : order;
-    this.capacity = 0;
-    this.count = 0;
-    this.grow(32);
-    scene.add(this.mesh);
-  }
-
-  grow(capacity) {
-    const rows = new Float32Array(10 * capacity); // place 3, size 2, tint 4, shape 1
-    if (this.capacity) {
-      rows.set(this.rows);
-      this.mesh.geometry.dispose();
-    }
-    this.rows = rows;
-    this.capacity = capacity;
-    this.buffer = new THREE.InstancedInterleavedBuffer(rows, 10);
-    this.buffer.setUsage(THREE.DynamicDrawUsage);
-    const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(CORNERS, 3));
-    const part = (name, length, offset) => geometry.setAttribute(
-      name, new THREE.InterleavedBufferAttribute(this.buffer, length, offset),
-    );
-    part("place", 3, 0);
-    part("size", 2, 3);
-    part("tint", 4, 5);
-    part("shape", 1, 9);
-    geometry.instanceCount = this.count;
-    this.mesh.geometry = geometry;
-  }
-
-  clear() {
-    this.count = 0;
-    return this;
   }
 
   add(x, y, z, width, depth, red, green, blue, alpha, shape) {
-    if (this.count === this.capacity) this.grow(2 * this.capacity);
+    const first = this.next();
     const { rows } = this;
-    let at = 10 * this.count;
+    let at = first;
     rows[at++] = x; rows[at++] = y; rows[at++] = z;
     rows[at++] = width; rows[at++] = depth;
     rows[at++] = red; rows[at++] = green; rows[at++] = blue; rows[at++] = alpha;
     rows[at] = shape;
-    this.count += 1;
+    this.spread(first);
   }
 
   addHex(x, y, z, size, hex, alpha, shape) {
     this.add(x, y, z, size, size, hexPart(hex, 0), hexPart(hex, 1), hexPart(hex, 2), alpha, shape);
-  }
-
-  commit() {
-    this.mesh.geometry.instanceCount = this.count;
-    this.mesh.visible = this.count > 0;
-    if (this.count === 0) return;
-    this.buffer.clearUpdateRanges();
-    this.buffer.addUpdateRange(0, 10 * this.count);
-    this.buffer.needsUpdate = true;
   }
 }

@@ -79,6 +79,7 @@ function view(element, store, scene) {
   const words = make("p", { class: "quiet", role: "status" });
   let timer = 0;
   const show = () => {
+    scene.painter.filming = video.running;
     film.textContent = video.running ? "■ Stop the video" : "Video of it";
     film.setAttribute("aria-pressed", String(video.running));
     film.disabled = !video.possible;

@@ -9,20 +9,27 @@ import { Handles } from "/page/handles.js";
 import { resolution } from "/page/lines.js";
 import { Obstacles } from "/page/obstacles.js";
 import { Overlays } from "/page/overlays.js";
+import { Painter } from "/page/painter.js";
 import { Playback } from "/page/playback.js";
 import { Rays } from "/page/rays.js";
 import { Sky } from "/page/sky.js";
 import { Toolbar } from "/page/toolbar.js";
 import { Tools } from "/page/tools.js";
 
-const MOST_PIXELS = 2; // of the picture for one of the page's: more is work that nobody sees
-const SLOW = 24; // pictures a second
-const JUDGED_EVERY = 3; // s
-const HELD = 0.5; // of the fineness, while something is dragged and pictures come slowly
 const PRINT = 2; // pixels of a picture that is kept, for one of the view's
 const SMALL = 0.5; // radii of the creature: what reaches no farther is as good as a point
 const SEEN = 0.8; // of the half picture: what is new is well within
 const TURNS = [0, 0.5, -0.5, 1, -1]; // rad off the creature's heading, where there is room for it
+const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on
+// What may make the view look another while time stands: what the page is told, and what hands do to
+// it and to the page.
+const TOLD = [
+  "frame", "arrays", "document", "creature", "kinds", "clock", "tape", "backdrop", "link", "skin",
+  "ground",
+];
+const TOUCHED = ["pointerdown", "pointerup", "wheel"];
+const PRESSED = ["keydown", "click", "change"];
+const STILL = 2e-4; // of the view's distance: moved by less, the view stands
 const AHEAD = 1.5; // radii of the creature: nearer than that, a new thing would be under it
 
 export function mountScene(element, store) {
@@ -37,38 +44,51 @@ class Scene {
   constructor(element, store) {
     this.element = element;
     this.store = store;
-    this.drawn = 0; // pictures, for whoever measures
-    this.software = isSoftware();
-    this.fineness = this.software ? 1 : Math.min(devicePixelRatio, MOST_PIXELS);
-    this.renderer = makeRenderer(this.software);
-    this.canvas = this.renderer.domElement;
+    this.scene = new THREE.Scene();
+    this.creatures = new Creatures(this.scene, store);
+    this.sky = new Sky(this.scene);
+    this.painter = new Painter(this.scene, this);
+    this.canvas = this.painter.canvas;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
     this.canvas.setAttribute("aria-label", "View of the creature and its world");
     element.append(this.canvas);
-    this.scene = new THREE.Scene();
     this.makeParts();
-    this.lastDrawn = this.judged = performance.now();
-    this.judgedDrawn = 0;
+    this.lastDrawn = performance.now();
     this.shown = new THREE.Vector3(); // the middle of what the sun lights
-    this.rate = 0; // pictures a second
-    this.holding = false; // whether something is held and pictures come slowly
-    this.held = false; // whether they are coarse for it
+    this.eye = new THREE.Vector3(); // where the view was from
+    this.listenForStirs();
     new ResizeObserver(() => this.resize()).observe(element);
-    window.addEventListener("pointerdown", () => this.hold(this.rate < SLOW), true);
-    for (const kind of ["pointerup", "pointercancel", "blur"]) {
-      window.addEventListener(kind, () => this.hold(false), true);
-    }
     this.resize();
-    this.renderer.setAnimationLoop((now) => this.draw(now));
+    this.painter.renderer.setAnimationLoop((now) => this.draw(now));
+  }
+
+  // While time stands nothing is drawn but after something has stirred.
+  listenForStirs() {
+    this.stir();
+    const stir = () => this.stir();
+    for (const kind of TOLD) this.store.on(kind, stir);
+    for (const kind of TOUCHED) this.canvas.addEventListener(kind, stir, { capture: true, passive: true });
+    for (const kind of PRESSED) window.addEventListener(kind, stir, true);
+    this.canvas.addEventListener("pointermove", ({ buttons }) => { if (buttons) stir(); }, true);
+    document.addEventListener("visibilitychange", stir);
+    this.painter.onChange(stir);
+    this.store.on("kinds", () => this.painter.forget());
+  }
+
+  stir() {
+    this.stirred = performance.now();
+  }
+
+  // Pictures that were drawn, for whoever measures.
+  get drawn() {
+    return this.painter.drawn;
   }
 
   makeParts() {
     const { scene, store, canvas, element } = this;
     this.playback = new Playback(store);
-    this.sky = new Sky(scene, 2048);
     this.ground = new Ground(scene, store);
-    this.creatures = new Creatures(scene, store, this.software ? 130 : 60);
     this.obstacles = new Obstacles(scene, store);
     this.overlays = new Overlays(scene, store, this.creatures);
     this.overlays.body.heightAt = (x, z) => this.heightAt(x, z);
@@ -77,7 +97,6 @@ class Scene {
     note("");
     this.cameras = new Cameras(canvas);
     this.cameras.heightAt = (x, z) => this.heightAt(x, z);
-    this.renderer.localClippingEnabled = true;
     this.obstacles.clip(this.cameras.curtain);
     this.rays = new Rays(this.cameras, canvas, this);
     this.handles = new Handles(scene, store, this.obstacles, this.ground, this.rays, note);
@@ -93,59 +112,44 @@ class Scene {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(this.pixels);
-    this.renderer.setSize(width, height);
+    this.painter.resize(width, height);
     // Lines are as wide on a fine screen as on a coarse one.
     resolution.value.set(width, height);
     this.cameras.camera.aspect = width / height;
     this.cameras.camera.updateProjectionMatrix();
+    this.stir();
   }
 
-  // Of the picture, for one of the page's.
-  get pixels() {
-    return this.held ? HELD * this.fineness : this.fineness;
-  }
-
-  // The browser hands on the pointer's moves once a picture: while something is held, pictures that
-  // would come slowly are coarse, so that the creature follows the hand.
-  hold(held) {
-    this.holding = held;
+  // Whether it looks another in the next picture whatever anybody does.
+  get walks() {
+    return this.store.clock.playing && this.store.connected && this.store.tape.scrub === null;
   }
 
   draw(now) {
     const elapsed = (now - this.lastDrawn) / 1000;
-    this.lastDrawn = now;
-    if (!this.playback.advance(now)) return;
-    if (this.held !== this.holding) {
-      // Here, since a canvas of another size is empty until it is drawn.
-      this.held = this.holding;
-      this.resize();
+    const { walks, painter } = this;
+    this.tools.hover();
+    if (!walks && now - this.stirred > CALM) {
+      painter.rest();
+      return;
     }
+    if (!this.playback.advance(now)) return;
+    this.lastDrawn = now;
+    // Here, since a canvas of another size is empty until it is drawn.
+    painter.use(painter.wanted);
     this.creatures.update(this.playback);
     this.obstacles.update(this.playback);
     const focus = this.creatures.focus(this.playback.to);
     if (focus) this.look(focus, elapsed);
-    this.creatures.choose(this.cameras.camera, this.canvas.height);
-    this.tools.hover();
+    this.choose(this.canvas.height);
     this.overlays.update(this.playback);
     this.handles.update();
-    this.renderer.render(this.scene, this.cameras.camera);
-    this.drawn += 1;
-    this.spare(now);
+    painter.draw(this.cameras.camera, now, walks);
   }
 
-  // A weak GPU before a fine screen: rather fewer pixels than fewer pictures.
-  spare(now) {
-    const seconds = (now - this.judged) / 1000;
-    if (seconds < JUDGED_EVERY) return;
-    const rate = (this.drawn - this.judgedDrawn) / seconds;
-    this.rate = rate;
-    this.judged = now;
-    this.judgedDrawn = this.drawn;
-    // What was hidden or asleep in between tells nothing.
-    if (rate < 1 || rate > SLOW || this.fineness <= 1) return;
-    this.fineness = Math.max(1, 0.75 * this.fineness);
-    this.resize();
+  // A coarse picture is no reason for coarser creatures.
+  choose(height) {
+    this.creatures.choose(this.cameras.camera, Math.max(height, this.canvas.clientHeight));
   }
 
   look({ herd, row }, elapsed) {
@@ -164,6 +168,9 @@ class Scene {
     const lit = Math.min(Math.max(1.2 * seen, 2.5 * cameras.size), 24 * cameras.size);
     const distance = cameras.camera.position.distanceTo(cameras.controls.target);
     sky.follow(this.shown, lit, distance, this.ground.edge);
+    const { position } = cameras.camera;
+    if (this.eye.distanceTo(position) > STILL * distance) this.stir();
+    this.eye.copy(position);
   }
 
   // For the panels and the keyboard.
@@ -250,34 +257,8 @@ class Scene {
 
   // The view as a PNG.
   picture() {
-    this.renderer.setPixelRatio(PRINT);
-    // Drawn and read in one go: the browser may forget the picture after that.
-    this.renderer.render(this.scene, this.cameras.camera);
-    const coming = new Promise((resolve, reject) => {
-      this.canvas.toBlob((blob) => (
-        blob ? resolve(blob) : reject(new Error("the browser made no picture of the view"))
-      ), "image/png");
-    });
-    this.renderer.setPixelRatio(this.pixels);
+    const coming = this.painter.picture(this.cameras.camera, PRINT, (height) => this.choose(height));
+    this.draw(performance.now());
     return coming;
   }
-}
-
-function makeRenderer(software) {
-  const renderer = new THREE.WebGLRenderer({
-    antialias: !software, powerPreference: "high-performance",
-  });
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = software ? THREE.BasicShadowMap : THREE.PCFShadowMap;
-  renderer.toneMapping = THREE.NoToneMapping;
-  return renderer;
-}
-
-// Whether pictures are drawn without a GPU. Then smooth edges would take most of the time.
-function isSoftware() {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const named = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

@@ -2,6 +2,7 @@
 
 import { make } from "/page/elements.js";
 import { tapeRate } from "/page/history.js";
+import { MOVE } from "/page/moves.js";
 
 const PATIENCE = 1000; // ms for which the next stroke goes on from where the last one is to lead
 
@@ -89,7 +90,7 @@ export class Scrubber {
       this.element.focus({ preventScroll: true });
       follow(event);
     });
-    element.addEventListener("pointermove", (event) => { if (held) follow(event); });
+    element.addEventListener(MOVE, (event) => { if (held) follow(event); });
     for (const kind of ["pointerup", "pointercancel"]) element.addEventListener(kind, () => { held = false; });
   }
 

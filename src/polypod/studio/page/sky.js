@@ -6,19 +6,28 @@ const SKY = 0x66788a;
 const TOWARD_SUN = new THREE.Vector3(0.5, 1.0, 0.35).normalize();
 
 export class Sky {
-  constructor(scene, shadowSize) {
+  constructor(scene) {
     this.scene = scene;
     scene.background = new THREE.Color(SKY);
     scene.fog = new THREE.Fog(SKY, 10, 100);
     scene.add(new THREE.HemisphereLight(0xdfe9f5, 0x6f675c, 1.5));
     this.sun = new THREE.DirectionalLight(0xfff3e0, 2.4);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(shadowSize, shadowSize);
     scene.add(this.sun, this.sun.target);
     this.reach = 0;
     this.right = new THREE.Vector3();
     this.up = new THREE.Vector3();
     this.centre = new THREE.Vector3();
+  }
+
+  // Have the shadow's map be so many texels a side.
+  grain(texels) {
+    const { shadow } = this.sun;
+    if (shadow.mapSize.x === texels) return;
+    shadow.mapSize.set(texels, texels);
+    shadow.map?.dispose();
+    shadow.map = null;
+    this.reach = 0; // its bias goes by the texel
   }
 
   // Light what is within `reach` metres of `centre`; fog begins well beyond the view's distance,

@@ -3,8 +3,11 @@
 
 import { make, makeButton, makeTick } from "/page/elements.js";
 import { Gesture } from "/page/gesture.js";
+import { MOVE } from "/page/moves.js";
 import { NumberBox } from "/page/number_box.js";
 import { decimalsOf, shownAs, withUnit } from "/page/units.js";
+
+const KNOB = 16; // px wide, in browsers that tell of moves at once
 
 let sliders = 0;
 
@@ -53,10 +56,23 @@ export class Slider {
       this.fresh = false;
       this.spell(Number(this.input.value));
     });
+    this.input.addEventListener(MOVE, (event) => this.follow(event));
     const release = () => { this.held = false; };
+    this.input.addEventListener("pointerup", release);
     this.input.addEventListener("change", release);
     this.input.addEventListener("pointercancel", release);
     this.input.addEventListener("blur", release);
+  }
+
+  // The browser moves its knob only once a picture, and then finds it where it would have it.
+  follow({ type, pointerType, clientX }) {
+    if (!this.held || type === "pointermove" || pointerType === "touch") return;
+    const { input } = this;
+    const along = clientX - input.getBoundingClientRect().left - input.clientLeft - KNOB / 2;
+    const { least, most } = this.range();
+    const before = input.value;
+    input.value = least + ((most - least) * along) / (input.clientWidth - KNOB);
+    if (input.value !== before) input.dispatchEvent(new Event("input", { bubbles: true }));
   }
 
   // What holds by itself, as a number to keep: no more digits than are shown.

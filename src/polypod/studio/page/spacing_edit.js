@@ -1,6 +1,7 @@
 // Hands on the feet: pointer and arrow keys move their preferred places.
 
 import { Gesture } from "/page/gesture.js";
+import { MOVE } from "/page/moves.js";
 import { shiftedSpacing, shiftOf } from "/page/spacing.js";
 
 const KEY_STEP = 0.01; // leg lengths
@@ -71,7 +72,7 @@ export class SpacingEditor {
       handle.setPointerCapture(event.pointerId);
       drag = { begun: this.begin(), from: place(event) };
     });
-    handle.addEventListener("pointermove", (event) => {
+    handle.addEventListener(MOVE, (event) => {
       if (!drag) return;
       const [left, forward] = place(event);
       this.shift(drag.begun, k, [left - drag.from[0], forward - drag.from[1]]);

@@ -1,6 +1,7 @@
 // The creature from above, its front up: body, bones and feet as they are, and the places that feet
 // prefer, to be dragged.
 
+import { redraw } from "/page/canvas.js";
 import { make, makeSvg } from "/page/elements.js";
 import { jointPlace, placeOf, restOf, shiftOf, viewFrom } from "/page/spacing.js";
 import { shown } from "/page/switches.js";
@@ -8,6 +9,7 @@ import { shown } from "/page/switches.js";
 const WIDTH = 348;
 const HEIGHT = 360;
 const ROOM = 0.45; // leg lengths round the outermost rest place
+const FRAMES_A_SECOND = 60;
 const FINGER = 14; // px round a handle's middle
 
 export class SpacingView {
@@ -20,7 +22,7 @@ export class SpacingView {
     this.feet = [];
     store.on("creature", () => this.build());
     store.on("document", () => this.showPlaces());
-    store.on("frame", () => this.showFrame());
+    store.on("frame", redraw(FRAMES_A_SECOND, () => this.showFrame()));
     this.build();
   }
 

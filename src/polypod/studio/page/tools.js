@@ -1,6 +1,7 @@
 // What the pointer does in the scene. Whatever it takes hold of, a body, a crate, a handle, is
 // dragged; else the view turns, as the cameras have it, and a click on the ground is an order.
 
+import { MOVE } from "/page/moves.js";
 import { PushDrag } from "/page/push.js";
 import { WayDrawing } from "/page/way.js";
 import { turned } from "/page/obstacle_edit.js";
@@ -29,6 +30,7 @@ export class Tools {
     const { canvas } = this;
     // Before the cameras hear of it, which then do not.
     canvas.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
+    canvas.addEventListener(MOVE, (event) => this.drag(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.moved(event), { capture: true });
     canvas.addEventListener("pointerup", (event) => this.up(event), { capture: true });
     canvas.addEventListener("pointercancel", () => this.cancel(), { capture: true });
@@ -120,16 +122,16 @@ export class Tools {
     };
   }
 
-  moved(event) {
+  drag(event) {
     if (this.press && Math.hypot(event.clientX - this.press.x, event.clientY - this.press.y) > CLICK) {
       this.press = null;
     }
-    if (this.held) {
-      event.stopImmediatePropagation();
-      this.held.move(event);
-    } else if (event.buttons === 0 && event.pointerType !== "touch") {
-      this.hovered = event;
-    }
+    this.held?.move(event);
+  }
+
+  moved(event) {
+    if (this.held) event.stopImmediatePropagation();
+    else if (event.buttons === 0 && event.pointerType !== "touch") this.hovered = event;
   }
 
   up(event) {

@@ -35,7 +35,8 @@ export class Wheel {
     this.reception = makeSvg("path", { class: "wheel-reception" });
     this.propulsion = makeSvg("path", { class: "wheel-propulsion" });
     this.middle = makeSvg("line", { class: "wheel-middle", x1: 0, y1: 0 });
-    this.needle = makeSvg("path", { class: "wheel-needle", d: `M0 9L0 -${RADIUS + 2}` });
+    // No part of the drawing: it turns in every picture, and what it turns over is not drawn again.
+    this.needle = make("div", { class: "wheel-needle" });
     this.rim = makeSvg("path", { class: "wheel-rim", stroke: foot.colour });
     this.events = makeSvg("g");
     this.handles = {
@@ -46,14 +47,14 @@ export class Wheel {
     this.picture = makeSvg("svg", { viewBox: `${-HALF} ${-HALF} ${2 * HALF} ${2 * HALF}`, role: "group", "aria-label": `${foot.name} wheel` },
       makeSvg("circle", { class: "wheel-back", r: RADIUS }),
       this.reception, this.propulsion, this.middle, this.swing, this.makeTicks(), this.rim, this.events,
-      this.handles.whole, this.needle, makeSvg("circle", { class: "wheel-hub", r: 3 }),
+      this.handles.whole, makeSvg("circle", { class: "wheel-hub", r: 3 }),
       this.handles.start, this.handles.finish);
     this.duty = make("span", { class: "quiet" });
     this.mark = make("span", { class: "wheel-mark" });
     const dot = make("span", { class: "foot-dot" });
     dot.style.background = foot.colour;
     const name = make("span", { class: "wheel-name", title: foot.name }, short);
-    this.element = make("div", { class: "wheel" }, this.picture, this.mark, make("div", { class: "wheel-words" }, dot, name, this.duty));
+    this.element = make("div", { class: "wheel" }, make("div", { class: "wheel-face" }, this.picture, this.needle), this.mark, make("div", { class: "wheel-words" }, dot, name, this.duty));
     this.element.style.setProperty("--foot", foot.colour);
     this.seen = {};
   }
@@ -128,7 +129,7 @@ export class Wheel {
   }
 
   showNeedle(phase) {
-    this.needle.setAttribute("transform", `rotate(${(360 * phase).toFixed(1)})`);
+    this.needle.style.transform = `rotate(${(360 * phase).toFixed(1)}deg)`;
   }
 
   // Whether it is in the air, and whether it is the next to lift.

@@ -1,5 +1,6 @@
 // All wheels, laid out as the creature stands: left and right by side, fore above hind.
 
+import { redraw } from "/page/canvas.js";
 import { Circle } from "/page/circle.js";
 import { disksInUse, disksOf, isDrawn, needleNow, wrap } from "/page/disks.js";
 import { make } from "/page/elements.js";
@@ -10,6 +11,7 @@ import { bindWheel } from "/page/wheels_edit.js";
 
 const SIZES = [[2, 132], [3, 108]]; // rows, and pixels of a wheel
 const SMALLEST = 84;
+const FRAMES_A_SECOND = 60;
 const FINGER = 12; // px round a handle's middle
 
 export class Wheels {
@@ -22,7 +24,7 @@ export class Wheels {
     this.circle = new Circle(store);
     store.on("creature", () => this.build());
     store.on("document", () => this.showAsked());
-    store.on("frame", () => this.showFrame());
+    store.on("frame", redraw(FRAMES_A_SECOND, () => this.showFrame()));
     this.build();
     const turn = () => {
       requestAnimationFrame(turn);

@@ -2,6 +2,7 @@
 
 import { disksOf, eventsOf, isDrawn, partnerOf, shiftedDisks, shortWay, snappedShift, wrap } from "/page/disks.js";
 import { Gesture } from "/page/gesture.js";
+import { MOVE } from "/page/moves.js";
 
 const DRAWN = "edited"; // what a gait is called that was changed by hand
 const PAUSE = 900; // ms between two key strokes that are still one gesture
@@ -110,7 +111,7 @@ function bindPointer(wheel, part, handle, editor) {
     wheel.showEvents(editor.events(grip).map(({ phase, foot }) => ({ phase, colour: feet[foot].colour })));
     wheel.element.classList.add("held");
   });
-  handle.addEventListener("pointermove", (event) => {
+  handle.addEventListener(MOVE, (event) => {
     if (!drag) return;
     const phase = phaseAt(event);
     // Turns add up, so that a hand that goes round past the top goes on.

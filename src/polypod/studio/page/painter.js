@@ -1,0 +1,159 @@
+// What draws: three.js's renderer, at the level of quality that the machine has time for or that a
+// person has pinned. Pictures that are kept are drawn at the best.
+
+import { THREE } from "three";
+import { pace } from "/page/canvas.js";
+import { BEST, FASTEST, LEVELS, Quality } from "/page/quality.js";
+
+const KEPT = "polypod.quality";
+// Without a GPU: where to begin, so that the first seconds are no show of slides.
+const SOFTWARE = 2;
+
+export const QUALITIES = {
+  auto: { title: "Auto", hint: "as fine as there is time for" },
+  best: { title: "Best", hint: "everything fine, however long it takes" },
+  fast: { title: "Fast", hint: "coarse, so that it moves smoothly" },
+};
+
+export class Painter {
+  // `parts`: {sky, creatures} of the scene, which have their own part in a level.
+  constructor(scene, parts) {
+    this.scene = scene;
+    this.parts = parts;
+    const software = isSoftware();
+    this.renderer = makeRenderer(software);
+    this.canvas = this.renderer.domElement;
+    this.quality = new Quality(software ? SOFTWARE : BEST);
+    this.listeners = new Set();
+    this.filming = false; // a video is made of the view
+    this.drawn = 0; // pictures, for whoever measures
+    this.last = 0; // ms, when the picture before was wanted; 0 where it was not
+    const kept = localStorage.getItem(KEPT);
+    this.pinned = kept in QUALITIES ? kept : "auto";
+    this.use(this.wanted);
+  }
+
+  // Hear of what is pinned, and of the level, when they change.
+  onChange(listener) {
+    this.listeners.add(listener);
+    listener();
+  }
+
+  choose(pinned) {
+    if (!(pinned in QUALITIES)) throw new Error(`there is no quality ${pinned}; there are ${Object.keys(QUALITIES).join(", ")}`);
+    this.pinned = pinned;
+    localStorage.setItem(KEPT, pinned);
+    this.tell();
+  }
+
+  tell() {
+    for (const listener of this.listeners) listener();
+  }
+
+  get wanted() {
+    if (this.filming || this.pinned === "best") return BEST;
+    return this.pinned === "fast" ? FASTEST : this.quality.level;
+  }
+
+  // Another scene: it may be easier to draw.
+  forget() {
+    this.quality.forget();
+  }
+
+  resize(width, height) {
+    this.size = [width, height];
+    this.fit(this.pixels);
+  }
+
+  fit(pixels) {
+    if (!this.size) return;
+    this.renderer.setPixelRatio(pixels);
+    // The style stretches a coarse picture over the same place.
+    this.renderer.setSize(...this.size);
+  }
+
+  // Of the picture, for one of the page's.
+  get pixels() {
+    const { pixels } = LEVELS[this.level];
+    return pixels < 1 ? pixels : Math.min(devicePixelRatio, pixels);
+  }
+
+  // Go over to a level.
+  use(level) {
+    if (level === this.level) return;
+    const before = LEVELS[this.level];
+    this.level = level;
+    const next = LEVELS[level];
+    const { sky, creatures } = this.parts;
+    this.fit(this.pixels);
+    sky.grain(next.shadow);
+    creatures.refine(next.small, next.lit);
+    pace.most = next.panels;
+    this.renderer.shadowMap.type = next.soft ? THREE.PCFShadowMap : THREE.BasicShadowMap;
+    if (before?.soft !== next.soft) {
+      this.scene.traverse(({ material, userData }) => {
+        for (const one of [material, ...Object.values(userData)]) if (one?.isMaterial) one.needsUpdate = true;
+      });
+    }
+    this.renderer.shadowMap.needsUpdate = true;
+  }
+
+  // Nothing was to be drawn: how long it was until the next picture tells nothing.
+  rest() {
+    this.last = 0;
+  }
+
+  // Draw; `now` [ms] is when the picture was begun, `walks` whether the next is wanted at once.
+  draw(camera, now, walks) {
+    const { shadowMap } = this.renderer;
+    // What stands still is drawn at once with its own shadow.
+    const due = this.drawn % LEVELS[this.level].every === 0 || !walks;
+    shadowMap.autoUpdate = false;
+    shadowMap.needsUpdate ||= due;
+    this.renderer.render(this.scene, camera);
+    this.drawn += 1;
+    if (walks && this.last && !document.hidden && this.pinned === "auto" && !this.filming) {
+      this.quality.take(now - this.last);
+    }
+    this.last = walks ? now : 0;
+  }
+
+  // The view as a PNG, of `pixels` for one of the page's, and as good as can be; `prepare` is called
+  // with the picture's height before it is drawn.
+  picture(camera, pixels, prepare) {
+    const { level } = this;
+    this.use(BEST);
+    this.fit(pixels);
+    prepare(this.canvas.height);
+    // Drawn and read in one go: the browser may forget the picture after that.
+    this.renderer.render(this.scene, camera);
+    const coming = new Promise((resolve, reject) => {
+      this.canvas.toBlob((blob) => (
+        blob ? resolve(blob) : reject(new Error("the browser made no picture of the view"))
+      ), "image/png");
+    });
+    this.use(level);
+    this.fit(this.pixels);
+    this.rest();
+    return coming;
+  }
+}
+
+function makeRenderer(software) {
+  const renderer = new THREE.WebGLRenderer({
+    antialias: !software, powerPreference: "high-performance",
+  });
+  renderer.shadowMap.enabled = true;
+  renderer.toneMapping = THREE.NoToneMapping;
+  renderer.localClippingEnabled = true;
+  return renderer;
+}
+
+// Whether pictures are drawn without a GPU. Then smooth edges would take most of the time.
+function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const named = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
