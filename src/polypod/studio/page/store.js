@@ -21,7 +21,8 @@ export class Store {
   }
 
   // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
-  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words". Returns how to stop.
+  // "limits", "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words", and "joint":
+  // rows of the joints that are being limited. Returns how to stop.
   on(kind, listener) {
     if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
     this.listeners.get(kind).add(listener);
