@@ -196,7 +196,7 @@ def tab(new_tab: Callable[..., Tab]) -> Tab:
 FRESH = {
     "creature": {
         "rig": "spider", "leg": None, "spine": None, "forward": None, "height": None,
-        "body_height": None,
+        "body_height": None, "limit": None,
     },
     "crowd": [],
     "command": {

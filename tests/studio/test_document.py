@@ -6,14 +6,17 @@ import contextlib
 import copy
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from polypod.errors import PolypodError
+from polypod.morphology.creature import read_creature
 from polypod.studio.document import SETTINGS, default_document, edited, judged
+from polypod.studio.toml_text import tables_by_name
 
 BOX = {"shape": "box", "size": [0.3, 0.2, 0.3], "position": [0.0, 0.1, 1.0]}
 
@@ -31,7 +34,8 @@ json_values = st.recursive(
 places = st.sampled_from(
     [
         ["command", "speed"], ["command", "heading"], ["command"], ["creature", "leg"],
-        ["creature"], ["crowd"], ["crowd", 0], ["gait"], ["spacing"], ["spacing", 0],
+        ["creature"], ["creature", "limit"], ["creature", "height"], ["crowd"],
+        ["crowd", 0], ["gait"], ["spacing"], ["spacing", 0],
         ["settings", "spine"], ["path"], ["path", 0], ["terrain"], ["obstacle"], ["obstacle", 0],
         ["obstacle", 0, "size"], ["nothing"], [0], ["command", "speed", 0],
     ]
@@ -84,11 +88,55 @@ def test_lists_grow_at_their_end_and_lose_what_is_made_null() -> None:
         (["crowd"], [{"rig": "ant", "count": 200}], "too many"),
         (["gait"], {"name": "x", "start": [0.1, True], "extent": [0.3, 0.3]}, "start"),
         (["path"], [[0.0, math.inf]], "point 0 of the path"),
+        (["creature", "limit"], {"Knee": {"bend": [0.5, -0.5]}}, r"limit\.Knee\.bend.*least first"),
+        (["creature", "limit"], {"Knee": {"bend": [math.nan, 0.5]}}, r"Knee\.bend.*number"),
+        (["creature", "limit"], {"Knee": {"bend": [-4.0, 0.5]}}, "within -pi and pi"),
+        (["creature", "limit"], {"Knee": {"bend": 0.5}}, "2 numbers"),
+        (["creature", "limit"], {"Hip": {"flexion": 0.0}}, "above 0"),
+        (["creature", "limit"], {"Hip": {"flexion": 10**400}}, "number"),
+        (["creature", "limit"], {"Back": {"yaw": True}}, "number"),
+        (["creature", "limit"], {"Back": {"swing": 1.0}}, "no key here"),
+        (["creature", "limit"], {"Back": 1.0}, "must be a table"),
+        (["creature", "limit"], [], "tables by name"),
+        (["creature", "limit"], {str(n): {} for n in range(1001)}, "1001 joints"),
     ],
 )
 def test_what_cannot_be_is_refused_with_its_place(at: list[Any], to: Any, words: str) -> None:
     with pytest.raises(PolypodError, match=words):
         edited(default_document(), at, to)
+
+
+angles = st.floats(-4.0, 4.0) | st.sampled_from([0.0, math.pi, -math.pi, math.nan, math.inf])
+limits = st.dictionaries(
+    st.text(st.characters(codec="utf-8"), max_size=6),
+    st.dictionaries(
+        st.sampled_from(["bend", "flexion", "sideways", "twist", "yaw", "pitch", "roll", "swing"]),
+        angles | st.lists(angles, min_size=1, max_size=3) | st.integers(-4, 4) | st.booleans(),
+        max_size=3,
+    ),
+    max_size=3,
+)
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(limits)
+def test_limits_are_those_that_a_creature_file_may_have(
+    tmp_path: Path, asked: dict[str, Any]
+) -> None:
+    text = "\n".join(['rig = "spider"', *tables_by_name("limit", asked)])
+    file = tmp_path / "creature.toml"
+    file.write_text(text, encoding="utf-8")
+    try:
+        document = edited(default_document(), ["creature", "limit"], asked)
+    except PolypodError:
+        with pytest.raises(PolypodError):
+            read_creature(file)
+        return
+    read = read_creature(file).limit
+    assert list(read) == list(document["creature"]["limit"])
+    for name, said in document["creature"]["limit"].items():
+        for key, value in said.items():
+            assert read[name][key] == tuple(value if isinstance(value, list) else [value])
 
 
 def test_ground_is_chosen_and_made_flat_again() -> None:

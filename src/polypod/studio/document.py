@@ -123,7 +123,7 @@ def _step_into(inner: Any, step: Any, at: Sequence[str | int]) -> Any:
 
 
 def judged(values: Any) -> Document:
-    """Return a document as it is, if it is one.
+    """Return a document as it is, if it is one; what its creature leaves out is null.
 
     Raises:
         SettingError: it is none; the place, what is there and what may be.
@@ -144,7 +144,7 @@ def judged(values: Any) -> Document:
     for i, point in enumerate(_list(table, "path", MOST_WAYPOINTS)):
         _judge_pair(f"point {i} of the path", point, LARGEST)
     _judge_place(values["terrain"], _list(table, "obstacle", MOST_OBSTACLES))
-    return dict(values)
+    return {**values, "creature": {**dict.fromkeys(CREATURE), **values["creature"]}}
 
 
 def _list(table: SceneTable, key: str, most: int) -> list[Any]:

@@ -25,6 +25,7 @@ from polypod.morphology.load import load_rig
 from polypod.morphology.overrides import override_limits
 from polypod.morphology.skeleton import Skeleton, read_skeleton
 from polypod.morphology.types import FloatArray, LegTable, Morphology
+from polypod.state import HerdTables
 
 Facts = dict[str, Any]
 
@@ -77,13 +78,11 @@ class LimitedRig:
         Raises:
             RigError: they name no joint that turns, or give one what is not its own.
         """
-        asked = self.said if limits is None else judge_limits("the creature", limits)
+        asked = judge_limits("the creature", self.said if limits is None else limits)
+        if not asked:
+            return self.morphology
         creature = Creature("the creature", self.morphology.name, limit=asked)
-        return (
-            override_limits(self.morphology, self._skeleton, creature)
-            if asked
-            else (self.morphology)
-        )
+        return override_limits(self.morphology, self._skeleton, creature)
 
 
 def why_not_standing(herd: Herd, limited: Morphology) -> str:
@@ -113,6 +112,22 @@ def why_not_standing(herd: Herd, limited: Morphology) -> str:
         f"{names or 'its joints'} cannot be limited so: {limited.name} cannot stand then, for not "
         "every foot finds a place within reach"
     )
+
+
+def why_not_stepping(herd: Herd, before: HerdTables) -> str | None:
+    """Return in a sentence which of a herd's joints keeps a leg from any step; None: none does.
+
+    `before`: the tables that the herd had until now. A leg that took no step then is not judged.
+    """
+    travel = herd.tables.ik.stance_travel
+    for leg, joint in _changed_joints(before.legs, herd.morphology.legs):
+        if travel[leg] <= 0.0 < before.ik.stance_travel[leg]:
+            row = int(herd.morphology.legs.joint[leg, joint])
+            return (
+                f"{joint_label(herd.morphology, row)} cannot be limited so: its leg to "
+                f"{herd.morphology.foot_name[leg]} can take no step then"
+            )
+    return None
 
 
 def _changed_joints(before: LegTable, after: LegTable) -> Iterator[tuple[int, int]]:

@@ -15,7 +15,7 @@ from polypod.herd import Herd
 from polypod.relimit import relimit
 from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
-from polypod.studio.joint_limits import LimitedRig, why_not_standing
+from polypod.studio.joint_limits import LimitedRig, why_not_standing, why_not_stepping
 from polypod.studio.judge import Question
 from polypod.studio.places import change_of, make_place, obstacle_poses, on_other_ground
 from polypod.studio.wandering import Wanderers, stand_beside
@@ -157,7 +157,7 @@ class Stage:
             PolypodError: it cannot stand with them, or they name no joint; nothing has changed.
         """
         herd = self.herd
-        before = herd.morphology, herd.tables
+        morphology, tables = herd.morphology, herd.tables
         angles = herd.state.spine_angle.copy()
         limited = self.rig.limited(document["creature"].get("limit"))
         try:
@@ -165,13 +165,16 @@ class Stage:
         except SettingError:
             raise SettingError(why_not_standing(herd, limited)) from None
         try:
+            why = why_not_stepping(herd, tables)
+            if why is not None:
+                raise SettingError(why)
             # What has a default of the creature's own may have another one now.
             other = dict.fromkeys(document["command"], "another")
             ask(herd, document, {**self.document, "command": other})
-        except SettingError as error:
-            herd.take_limits(*before)
+        except SettingError:
+            herd.take_limits(morphology, tables)
             herd.state.spine_angle[:] = angles
-            raise SettingError(f"with these limits {error}") from None
+            raise
 
     def _build(self, document: Document, *, stays: bool = False) -> None:
         """Make the world anew; a creature that `stays` goes on from where it is."""

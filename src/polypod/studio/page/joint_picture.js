@@ -26,7 +26,12 @@ export class JointPicture {
   }
 
   highlight(node) {
-    for (const view of this.views) view.highlight(node);
+    for (const view of this.views) view.encircle(view.ring, node);
+  }
+
+  // Show which joint is chosen, null: none is.
+  select(node) {
+    for (const view of this.views) view.select(node);
   }
 }
 
@@ -35,10 +40,11 @@ class View {
     Object.assign(this, { projection, pick, point });
     this.places = new Map();
     this.ring = makeSvg("circle", { class: "joint-ring", r: 7, visibility: "hidden" });
+    this.chosen = makeSvg("circle", { class: "joint-chosen", r: 5.5, visibility: "hidden" });
     this.bones = makeSvg("g", {});
     this.svg = makeSvg(
       "svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "joints", role: "img", "aria-label": `Joints ${title.toLowerCase()}` },
-      this.bones, this.ring,
+      this.bones, this.chosen, this.ring,
     );
     this.figure = make("figure", {}, this.svg, make("figcaption", { class: "quiet" }, title));
     this.svg.addEventListener("pointermove", (event) => this.point(this.nearest(event)));
@@ -65,6 +71,7 @@ class View {
       dots.push(makeSvg("circle", { cx: x, cy: y, r: size, fill: colour, opacity }));
     }
     this.bones.replaceChildren(...lines, ...dots);
+    this.select(this.selected);
   }
 
   // Where joints are in the picture: the whole rig fits, to one scale both ways.
@@ -96,11 +103,16 @@ class View {
     return best;
   }
 
-  highlight(node) {
+  select(node) {
+    this.selected = node;
+    this.encircle(this.chosen, node);
+  }
+
+  encircle(ring, node) {
     const place = this.places.get(node);
-    this.ring.setAttribute("visibility", place ? "visible" : "hidden");
+    ring.setAttribute("visibility", place ? "visible" : "hidden");
     if (!place) return;
-    this.ring.setAttribute("cx", place[0]);
-    this.ring.setAttribute("cy", place[1]);
+    ring.setAttribute("cx", place[0]);
+    ring.setAttribute("cy", place[1]);
   }
 }

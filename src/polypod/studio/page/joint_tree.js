@@ -66,6 +66,11 @@ export class JointTree {
     }
   }
 
+  // Show which joint is chosen, null: none is.
+  select(node) {
+    for (const [other, { item }] of this.items) item.setAttribute("aria-selected", String(other === node));
+  }
+
   // Show the joint that is pointed at elsewhere.
   highlight(node) {
     for (const [other, { item }] of this.items) item.classList.toggle("pointed", other === node);

@@ -112,6 +112,9 @@ export class Link {
         store.canUndo = message.can_undo;
         store.canRedo = message.can_redo;
         break;
+      case "limits": // of the creature that walks: what of it has changed
+        Object.assign(store.creature, { ...message, is: "creature" });
+        break;
       case "trouble":
         store.say(message.why);
         break;

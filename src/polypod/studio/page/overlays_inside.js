@@ -7,7 +7,11 @@ const BONE = "#e6ebf0";
 const SPINE = "#111111"; // and its nodes blue, as P2 draws them
 const NODE = "#2f6fe4";
 const LIMIT = "#ffd166";
+const CHOSEN = "#ffffff";
 const FAN_RADIUS = 0.1; // leg lengths
+const CHOSEN_RADIUS = 0.17;
+// Of all joints these would hide the others; those of a joint that is being limited are shown.
+const ROUND = ["twist", "roll"];
 const FAN_STEPS = 10;
 
 export class InsideOverlays {
@@ -19,6 +23,8 @@ export class InsideOverlays {
     this.spine = new Lines(scene, { width: 5, over: true, order: 11 });
     this.nodes = new Marks(scene, { over: true, facing: true, leastPixels: 6, order: 12 });
     // Of one joint at a time: its quaternion and shift, and what is turned by them.
+    this.chosen = new Set(); // rows of the joints that are being limited
+    store.on("joint", (rows) => { this.chosen = new Set(rows); });
     this.pose = new Float32Array(7);
     this.a = new Float32Array(3);
     this.b = new Float32Array(3);
@@ -33,7 +39,7 @@ export class InsideOverlays {
     // The server describes the first kind; a frame of the creature before may still be shown.
     if (focus && facts && to.focus.kind === 0 && focus.herd.joints === facts.rest.length + 1) {
       if (shown.has("bones")) this.drawBones(focus, facts);
-      if (shown.has("limits")) this.drawFans(focus, facts);
+      this.drawFans(focus, facts, shown.has("limits"));
       if (shown.has("spine")) this.drawSpine(focus, facts);
     }
     for (const part of [this.fans, this.bones, this.spine, this.nodes]) part.commit();
@@ -100,9 +106,14 @@ export class InsideOverlays {
     }
   }
 
-  drawFans(focus, facts) {
-    this.fans.colour(LIMIT, 0.85);
-    for (const fan of facts.fans) this.drawFan(focus, fan, FAN_RADIUS * facts.leg_length);
+  // Those of all joints, and larger those of the joints that are being limited.
+  drawFans(focus, facts, all) {
+    for (const fan of facts.fans) {
+      const chosen = this.chosen.has(fan.joint);
+      if (!chosen && (!all || ROUND.includes(fan.key))) continue;
+      this.fans.colour(chosen ? CHOSEN : LIMIT, chosen ? 1 : 0.85);
+      this.drawFan(focus, fan, (chosen ? CHOSEN_RADIUS : FAN_RADIUS) * facts.leg_length);
+    }
   }
 
   // From the least to the most angle, with a straight side at both.

@@ -5,7 +5,7 @@ import { JointPicture } from "/page/joint_picture.js";
 import { JointTree } from "/page/joint_tree.js";
 import { LegEditor } from "/page/leg_editor.js";
 import { RigDraft, nameOfRig, rememberName } from "/page/rig_draft.js";
-import { limitTable } from "/page/rig_limits.js";
+import { LimitPanel } from "/page/rig_limits.js";
 import { RigSize } from "/page/rig_size.js";
 import { RigUpload } from "/page/rig_upload.js";
 
@@ -14,6 +14,7 @@ const BONE = "#5b6774";
 const SPINE = "#ffffff";
 // What of a command has a default of each creature's own.
 const OWN = ["speed", "step_height", "body_height", "period", "duty"];
+const UNLIMITED = "Its joints turn as far as found again: it has other legs or another spine.";
 const GIANT = 6; // m; what is taller is rarely meant to be
 
 export function mountRig(element, store) {
@@ -40,7 +41,10 @@ class RigPanel {
     this.pointed = make("p", { class: "quiet pointed-name" });
     this.legs = new LegEditor(store, { changed: judge, picking: () => this.showPicking() });
     this.size = new RigSize(judge);
-    this.limits = make("div", {});
+    this.limits = new LimitPanel(store, (node) => {
+      this.tree.select(node);
+      this.picture.select(node);
+    });
     this.build();
     this.listen();
   }
@@ -56,16 +60,18 @@ class RigPanel {
       makeSection("Legs", this.legs.legs),
       this.legs.hint,
       makeSection("Joints", this.picture.element, this.pointed, this.tree.element),
+      makeSection("Limits", this.limits.element),
       makeSection("Spine", this.legs.back),
       makeSection("What was guessed", this.guesses),
-      makeSection("Limits", this.limits),
     );
   }
 
   listen() {
     // The creature that walks is looked at first when the panel is: judging a rig takes a moment.
     const shown = new IntersectionObserver((entries) => {
-      if (entries.some(({ isIntersecting }) => isIntersecting)) this.follow();
+      const seen = entries.at(-1).isIntersecting;
+      if (seen) this.follow();
+      this.limits.tellScene(seen);
     });
     shown.observe(this.element);
     for (const kind of ["document", "creature", "welcome"]) {
@@ -171,15 +177,20 @@ class RigPanel {
     this.offerUnit();
     this.size.show(draft);
     this.legs.show(draft);
-    this.limits.replaceChildren(limitTable(store.creature, walking));
     this.mark();
+    this.limits.show(walking);
   }
 
   // The document's creature as this draft would have it.
   creatureOfDraft() {
     const { creature } = this.store.document;
-    const kept = creature.rig === this.draft.rig ? creature.body_height : null;
-    return { ...this.draft.question(), body_height: kept };
+    const asked = this.draft.question();
+    const same = creature.rig === asked.rig;
+    // Other legs have other joints.
+    const alike = same && ["leg", "spine"].every((key) => sameValue(creature[key], asked[key]));
+    return {
+      ...asked, body_height: same ? creature.body_height : null, limit: alike ? creature.limit ?? null : null,
+    };
   }
 
   // Another joint is wanted: the picture of them comes into view.
@@ -224,7 +235,8 @@ class RigPanel {
 
   pick(node) {
     this.point(node);
-    this.legs.take(node);
+    if (this.legs.wanted) this.legs.take(node);
+    else if (this.limits.chooseNode(node)) this.limits.element.scrollIntoView({ block: "nearest" });
   }
 
   // What was asked of another's feet, in another's size, means nothing to this one; where it walks,
@@ -233,8 +245,10 @@ class RigPanel {
     const wanted = structuredClone(this.store.wanted);
     Object.assign(wanted, { creature: this.creatureOfDraft(), gait: null, spacing: [] });
     for (const key of OWN) wanted.command[key] = null;
+    const limited = this.store.document.creature;
     try {
       await this.store.send({ do: "open", document: wanted });
+      if (limited.limit && limited.rig === this.draft.rig && !wanted.creature.limit) this.store.say(UNLIMITED);
     } catch (refusal) {
       this.store.say(refusal.message);
     }
@@ -252,7 +266,11 @@ class RigPanel {
 }
 
 function sameCreature(a, b) {
-  return Object.keys(b).every((key) => JSON.stringify(a[key] ?? null) === JSON.stringify(b[key]));
+  return Object.keys(b).every((key) => sameValue(a[key], b[key]));
+}
+
+function sameValue(a, b) {
+  return JSON.stringify(a ?? null) === JSON.stringify(b ?? null);
 }
 
 function tall(metres) {

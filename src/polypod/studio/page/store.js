@@ -26,8 +26,9 @@ export class Store {
   }
 
   // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
-  // "verdict", "tape", "files", "backdrop", "welcome", "role", "frame", "arrays", "link", "words";
-  // "skin" and "ground" when these are there to be drawn. Returns how to stop.
+  // "limits", "verdict", "tape", "files", "backdrop", "welcome", "role", "frame", "arrays", "link",
+  // "words"; "joint": rows of the joints that are being limited; "skin" and "ground" when these are
+  // there to be drawn. Returns how to stop.
   on(kind, listener) {
     if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
     this.listeners.get(kind).add(listener);
