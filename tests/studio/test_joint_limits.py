@@ -294,7 +294,7 @@ class Heard:
 def test_a_drag_is_one_step_of_undo_and_tells_limits_alone() -> None:
     heard = Heard("spider")
     conductor = heard.conductor
-    skins = dict(conductor.skin_numbers)
+    skins = dict(conductor.drawn.skin_numbers)
     for most in (1.0, 0.9, 0.8):
         heard.edit({"LeftLeg2Tibia": {"bend": [-0.5, most]}}, "drag")
         told = {one["is"]: one for one in heard.told}
@@ -303,7 +303,7 @@ def test_a_drag_is_one_step_of_undo_and_tells_limits_alone() -> None:
         assert joint["turns"][0]["most"] == most
         fan = next(one for one in told["limits"]["fans"] if one["joint"] == joint["joint"])
         assert (fan["key"], fan["least"], fan["most"]) == ("bend", -0.5, most)
-    assert conductor.skin_numbers == skins
+    assert conductor.drawn.skin_numbers == skins
     conductor.obey({"do": "undo"})
     assert conductor.stage.document["creature"]["limit"] is None
     assert not conductor.history.can_undo

@@ -16,7 +16,6 @@ from polypod.studio.document import default_document, edited
 from polypod.studio.exports import EXPORTS
 from polypod.studio.places import on_other_ground, renumbered
 from polypod.studio.rigs_given import GivenRigs
-from polypod.studio.runner import Event
 from polypod.studio.stage import STEP, Stage
 from polypod.studio.world_files import WorldFiles
 
@@ -31,7 +30,7 @@ class Set:
         document = default_document()
         document["obstacle"] = list(obstacles)
         self.told: list[Any] = []
-        self.conductor = Conductor(Stage(document, lambda rig: rig), self.told.append, Event)
+        self.conductor = Conductor(Stage(document, lambda rig: rig), self.told.append)
 
     def order(self, **order: Any) -> None:
         self.conductor.obey(order)

@@ -24,8 +24,8 @@ const CALM = 500; // ms after the last stir for which pictures still are drawn: 
 // What may make the view look another while time stands: what the page is told, and what hands do to
 // it and to the page.
 const TOLD = [
-  "frame", "arrays", "document", "creature", "kinds", "clock", "tape", "backdrop", "link", "skin",
-  "ground",
+  "frame", "arrays", "document", "creature", "limits", "kinds", "clock", "tape", "backdrop", "link",
+  "skin", "ground",
 ];
 const TOUCHED = ["pointerdown", "pointerup", "wheel"];
 const PRESSED = ["keydown", "click", "change"];
