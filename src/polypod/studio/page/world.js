@@ -21,5 +21,6 @@ export function mountWorld(element, store, scene) {
     if (!store.document || !store.welcome || !store.creature) return;
     for (const [, part] of parts) part.refresh();
   };
-  for (const kind of ["document", "welcome", "creature"]) store.on(kind, refresh);
+  // Lists show at once what is asked for: their numbers are those that the next edit goes by.
+  for (const kind of ["document", "wanted", "welcome", "creature"]) store.on(kind, refresh);
 }
