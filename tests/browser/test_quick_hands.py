@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -10,7 +11,7 @@ from hands import name_of
 # All of it happens in one task of the page, so that no answer comes between.
 TYPED = """
 const typed = (name, text) => {
-  const box = document.querySelector(`input[aria-label="${name}"]`);
+  const box = document.querySelector(`input[aria-label="${name}" i]`);
   box.focus();
   box.value = text;
   box.dispatchEvent(new Event("input", { bubbles: true }));
@@ -82,6 +83,9 @@ def test_numbers_of_a_crate_and_points_of_a_path_add_up(tab: Any) -> None:
     assert len(tab.document["path"]) == 3
     at_once(tab, "pressed('Delete point 1'); pressed('Delete point 1');")
     assert len(tab.document["path"]) == 1
+    second = tab.document["obstacle"][1]["name"]
+    at_once(tab, "pressed('Add a sphere'); pressed('Delete box-1'); pressed('Delete sphere-1');")
+    assert [one["name"] for one in tab.document["obstacle"]] == [second]
     at_once(tab, "worded('Add a kind'); worded('Add a kind');")
     tab.until(lambda: [kind["count"] for kind in tab.document["crowd"]] == [10, 10], "both kinds")
 
@@ -93,7 +97,8 @@ def test_what_is_typed_while_ground_is_made_stays(tab: Any) -> None:
         "chosen('Ground', 'hills'); worded('Make this ground'); typed('seed', '7');",
     )
     assert tab.document["terrain"]["generator"] == "hills"
-    assert tab.box("seed").input_value() == "7"
+    seed = tab.page.get_by_role("spinbutton", name=re.compile("^seed$", re.IGNORECASE))
+    assert seed.input_value() == "7"
     tab.button("Make this ground").click()
     tab.until(lambda: tab.document["terrain"]["seed"] == 7, "what was typed is made now")
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import io
+import json
+import struct
 import time
 import tomllib
 from collections.abc import Callable, Iterator
@@ -204,6 +207,26 @@ def test_link_reproduces_the_state_and_a_broken_one_is_told(
     opened.page.goto(f"{studio_address}#nonsense")
     opened.until(lambda: "no link of the studio" in opened.words, "a broken link is told")
     assert opened.document == wanted
+
+
+def test_a_link_of_a_rig_that_is_not_here_opens_once_it_is_dropped(
+    tab: Any, new_tab: Callable[..., Any], studio_address: str, shared_rig: Callable[[str], Path]
+) -> None:
+    fox = shared_rig("khronos_fox/Fox.glb").read_bytes()
+    # The same rig in other bytes: four blanks more in its JSON, so that no test has given it.
+    whole, size = struct.unpack_from("<I", fox, 8)[0], struct.unpack_from("<I", fox, 12)[0]
+    fox = fox[:8] + struct.pack("<II", whole + 4, size + 4) + fox[16:]
+    fox = fox[: 20 + size] + b"    " + fox[20 + size :]
+    wanted = tab.document
+    wanted["creature"]["rig"] = f"upload:{hashlib.sha256(fox).hexdigest()}"
+    wanted["creature"]["height"] = 0.8
+    wanted["path"] = [[1, 2]]
+    text = base64.urlsafe_b64encode(json.dumps(wanted).encode()).decode().rstrip("=")
+    tab.page.close()
+    opened = new_tab(f"{studio_address}#{text}")
+    opened.until(lambda: "drop its file on the page" in opened.words, "what is missing is told")
+    drop_file(opened, "Fox.glb", fox)
+    opened.until(lambda: opened.document == wanted, "the link opens after all")
 
 
 def test_everything_that_can_be_reached_says_what_it_is(tab: Any) -> None:

@@ -185,9 +185,50 @@ def test_malformed_orders_are_refused(order: dict[str, Any], words: str) -> None
         judge_order(order)
 
 
-def test_every_order_has_somebody_who_carries_it_out() -> None:
-    from polypod.studio.conductor import Conductor
-
+def test_every_order_has_somebody_who_carries_it_out(runner: Runner) -> None:
+    orders: list[dict[str, Any]] = [
+        {"do": "edit", "at": ["command", "heading"], "to": 0.25},
+        {"do": "undo"},
+        {"do": "redo"},
+        {"do": "open", "document": default_document()},
+        {"do": "gait", "name": None},
+        {"do": "clock", "playing": False, "steps": 2},
+        {"do": "push", "velocity": [0.1, 0.0, 0.0]},
+        {"do": "record", "on": True},
+        {"do": "record", "on": False},
+        {"do": "scrub", "frame": 0},
+        {"do": "scrub", "frame": None},
+        {"do": "watch", "creature": 0},
+        {"do": "restart"},
+    ]
     by_the_link = {"see", "drive", "ack"}
-    for name in set(ORDERS) - by_the_link:
-        assert callable(getattr(Conductor, f"_do_{name}"))
+    assert {order["do"] for order in orders} == set(ORDERS) - by_the_link
+    for order in orders:
+        assert give(runner, **order) is None, order
+
+
+def test_what_cannot_be_undone_any_more_stays_in_the_history(runner: Runner) -> None:
+    assert give(runner, do="open", document=default_document()) is None
+    assert give(runner, do="edit", at=["command", "heading"], to=0.75) is None
+
+    def fail(document: Any) -> None:
+        raise SettingError("its rig is gone")
+
+    def break_stage(conductor: Any) -> None:
+        conductor.stage.apply = fail
+
+    def mend_stage(conductor: Any) -> None:
+        del conductor.stage.apply
+
+    def heading(conductor: Any) -> float:
+        return float(conductor.stage.document["command"]["heading"])
+
+    runner.call(break_stage).result(PATIENCE)
+    assert give(runner, do="undo") == "its rig is gone"
+    runner.call(mend_stage).result(PATIENCE)
+    assert runner.call(heading).result(PATIENCE) == 0.75
+    assert give(runner, do="redo") == "there is nothing to redo"
+    assert give(runner, do="undo") is None
+    assert runner.call(heading).result(PATIENCE) == 0.0
+    assert give(runner, do="redo") is None
+    assert runner.call(heading).result(PATIENCE) == 0.75

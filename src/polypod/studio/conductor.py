@@ -1,4 +1,4 @@
-"""Carries out orders on the stage, and says what has changed."""
+"""Walks the stage on, takes what is asked of it, and tells all tabs what comes of it."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 from polypod.errors import SettingError
-from polypod.gait.library import make_gait
-from polypod.studio.asked import disks_of, facts_of, limits_of
-from polypod.studio.document import Document, edited, judged
+from polypod.studio.asked import facts_of, limits_of
+from polypod.studio.document import Document
 from polypod.studio.drawn import Drawn
 from polypod.studio.frames import Focus, MotionMeter, pack_frame
 from polypod.studio.history import History
@@ -26,7 +25,7 @@ from polypod.studio.messages import (
 )
 from polypod.studio.outbox import Telling
 from polypod.studio.overlays import Overlays
-from polypod.studio.stage import STEP, Stage
+from polypod.studio.stage import Stage
 from polypod.studio.tape import NOTHING, Backdrop, Tape
 
 OVERLAY_EVERY = 0.2  # s
@@ -172,7 +171,7 @@ class Conductor:
             self.history.note(before, gesture)
         if built and self.scrubbed is not None:
             # Who builds wishes to see what comes of it.
-            self._do_scrub({"frame": None})
+            self.scrub(None)
         if self.tape is not None and self.tape.recording and not applied.creature:
             if applied.renumbered is not None:
                 self.tape.change(self.stage.world, self.stage.herds, applied.renumbered)
@@ -201,62 +200,28 @@ class Conductor:
             self.say(facts_of(self.stage.herd, self.stage.rig))
         self.say(kinds_message(self))
 
-    # Orders.
-
-    def obey(self, order: dict[str, Any]) -> None:
-        """Carry out an order that `orders.judge_order` has let through.
-
-        Raises:
-            PolypodError: it cannot be done; nothing has changed.
-        """
-        getattr(self, f"_do_{order['do']}")(order)
-
-    def _do_edit(self, order: dict[str, Any]) -> None:
-        document = edited(self.stage.document, order["at"], order["to"])
-        self.take(document, order.get("gesture"))
-
-    def _do_open(self, order: dict[str, Any]) -> None:
-        self.take(judged(order["document"]))
-
-    def _do_undo(self, order: dict[str, Any]) -> None:
-        document = self.history.undo(self.stage.document)
-        if document is None:
-            raise SettingError("there is nothing to undo")
-        self.take(document, keep=False)
-
-    def _do_redo(self, order: dict[str, Any]) -> None:
-        document = self.history.redo(self.stage.document)
-        if document is None:
-            raise SettingError("there is nothing to redo")
-        self.take(document, keep=False)
-
-    def _do_gait(self, order: dict[str, Any]) -> None:
-        name, legs = order["name"], self.stage.herd.tables.legs
-        gait = None if name is None else disks_of(make_gait(name, legs.side, legs.row))
-        self.take(judged({**self.stage.document, "gait": gait}))
-
-    def _do_clock(self, order: dict[str, Any]) -> None:
-        if order.get("playing") and self.scrubbed is not None:
-            self._do_scrub({"frame": None})
-        self.playing = order.get("playing", self.playing)
-        self.rate = float(order.get("rate", self.rate))
-        if not self.playing:
-            for _ in range(order.get("steps", 0)):
-                self.step(STEP)
-        self.tell_clock()
-
-    def _do_push(self, order: dict[str, Any]) -> None:
-        self.stage.push(order.get("creature", 0), order["velocity"], float(order.get("at", 0.0)))
-
-    def _do_restart(self, order: dict[str, Any]) -> None:
+    def restart(self) -> None:
+        """Stand all creatures where they began."""
         self.stage.restart()
         self._stop_tape("the walk has begun anew")
         self._begin_anew(False)
         self._send_frame()
 
-    def _do_record(self, order: dict[str, Any]) -> None:
-        if order["on"]:
-            self._do_scrub({"frame": None})
+    def look_at(self, creature: int) -> None:
+        """Have frames carry the details of a creature, counted through all kinds.
+
+        Raises:
+            SettingError: there is no such creature.
+        """
+        self.focus = Focus(*self.stage.find(creature))
+        self._meter.forget()
+
+    # What is recorded.
+
+    def record(self, on: bool) -> None:
+        """Begin a record, which takes the place of the one before, or end it."""
+        if on:
+            self.scrub(None)
             self.tape = Tape(self.stage.world, self.stage.herds)
             self._note_backdrop()
             self._send_frame()
@@ -274,8 +239,12 @@ class Conductor:
                 self.say({"is": "trouble", "why": why})
         self.say(tape_message(self))
 
-    def _do_scrub(self, order: dict[str, Any]) -> None:
-        index = order["frame"]
+    def scrub(self, index: int | None) -> None:
+        """Show a frame of the tape; None: the walk, which goes on.
+
+        Raises:
+            SettingError: nothing was recorded, or no such frame.
+        """
         if index is None:
             if self.scrubbed is not None:
                 self.scrubbed = None
@@ -298,7 +267,3 @@ class Conductor:
         if backdrop is not self.backdrop:
             self.backdrop = backdrop
             self.say(backdrop_message(self))
-
-    def _do_watch(self, order: dict[str, Any]) -> None:
-        self.focus = Focus(*self.stage.find(order["creature"]))
-        self._meter.forget()

@@ -1,4 +1,4 @@
-"""What the planner sees, for the page to draw: cells, candidates, paths, hulls, joint limits."""
+"""What the planner sees, for the page to draw: cells, candidates, paths, hulls."""
 
 from __future__ import annotations
 

@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 from polypod.errors import PolypodError
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
+from polypod.studio.obeying import obey
 from polypod.studio.outbox import Telling
 from polypod.studio.stage import STEP, FindRig, Stage
 from polypod.studio.world_files import WorldFiles
@@ -75,7 +76,7 @@ class Runner:
 
         def carry_out() -> None:
             try:
-                self._conductor.obey(order)
+                obey(self._conductor, order)
             except PolypodError as error:
                 answer(str(error))
             except Exception as error:

@@ -23,13 +23,19 @@ export function decode(hash) {
 export class LinkOpener {
   constructor(store) {
     this.store = store;
-    this.waiting = location.hash.length > 1;
+    // What becomes of what the address holds: "waiting" for this tab to drive, "opening", "refused"
+    // (it may be of a rig that is not here yet) or "", where there is nothing left to do.
+    this.state = location.hash.length > 1 ? "waiting" : "";
     window.addEventListener("hashchange", () => {
-      this.waiting = location.hash.length > 1;
+      this.state = location.hash.length > 1 ? "waiting" : "";
       this.open();
     });
     for (const kind of ["welcome", "role", "document"]) store.on(kind, () => this.open());
     store.on("document", () => this.drop());
+    store.on("rig", () => {
+      if (this.state === "refused") this.state = "waiting";
+      this.open();
+    });
   }
 
   // Show a link in the address; it is true already, so nothing is to be opened.
@@ -39,29 +45,32 @@ export class LinkOpener {
 
   async open() {
     const { store } = this;
-    if (!this.waiting || !store.document || !store.welcome) return;
+    if (this.state !== "waiting" || !store.document || !store.welcome) return;
     if (!store.drives) {
       store.say("Another tab drives; take over to open what this link holds.");
       return;
     }
-    this.waiting = false;
+    this.state = "opening";
     try {
       const wanted = decode(location.hash);
       if (JSON.stringify(wanted) !== JSON.stringify(store.document)) {
         await store.send({ do: "open", document: wanted });
         store.say("What the link holds is open; undo goes back.", true);
       }
+      this.state = "";
     } catch (error) {
       const broken = error instanceof SyntaxError || error instanceof TypeError || error.name === "InvalidCharacterError";
+      this.state = broken ? "" : "refused";
       store.say(broken ? "The link is no link of the studio, or was cut off." : `The link cannot be opened: ${error.message}.`);
-      history.replaceState(null, "", location.pathname);
+      if (broken) history.replaceState(null, "", location.pathname);
     }
   }
 
   // After a change the address no longer says what there is, and a reload must not go back to it.
   drop() {
-    if (this.waiting || location.hash.length < 2) return;
+    if (["waiting", "opening"].includes(this.state) || location.hash.length < 2) return;
     if (location.hash.slice(1) !== encode(this.store.document)) {
+      this.state = "";
       history.replaceState(null, "", location.pathname);
     }
   }

@@ -113,7 +113,7 @@ function link(store) {
   store.on("document", () => { if (box.value !== linkFor(store.document)) box.hidden = true; });
   const note = make(
     "p", { class: "quiet" },
-    "It holds creature, gait, numbers and world, not the record. A rig of your own is known to this studio for as long as it runs.",
+    "It holds creature, gait, numbers and world, not the record. A rig of your own is known to this studio for as long as it runs; after that, drop its file on the page once more.",
   );
   return [make("div", { class: "row" }, button), box, note];
 }

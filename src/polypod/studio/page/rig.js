@@ -107,6 +107,7 @@ class RigPanel {
     this.asking += 1; // what is still being judged is of another rig
     this.draft = new RigDraft(answer.rig);
     this.take(answer);
+    this.store.tell("rig", answer.rig);
   }
 
   // Files in centimetres are common, and would be giants: offer to take them for what they are.

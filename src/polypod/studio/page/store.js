@@ -27,8 +27,8 @@ export class Store {
 
   // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
   // "limits", "verdict", "tape", "files", "backdrop", "welcome", "role", "frame", "arrays", "link",
-  // "words"; "joint": rows of the joints that are being limited; "skin" and "ground" when these are
-  // there to be drawn. Returns how to stop.
+  // "words", "rig" (was given), "wanted" (an edit was asked for); "joint": rows of the joints that are
+  // being limited; "skin" and "ground" when these are there to be drawn. Returns how to stop.
   on(kind, listener) {
     if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
     this.listeners.get(kind).add(listener);
@@ -62,10 +62,12 @@ export class Store {
   // Change a place of the document. What is refused is said to the user, and controls go back to
   // what holds; edits of one gesture (a drag) are one step of undo.
   edit(at, to, gesture = undefined) {
-    return this.orders.edit(at, to, gesture).catch((refusal) => {
+    const done = this.orders.edit(at, to, gesture).catch((refusal) => {
       this.say(refusal.message);
       if (this.document) this.tell("document", { document: this.document });
     });
+    this.tell("wanted", this.wanted);
+    return done;
   }
 
   // Say something to the user, in the line at the bottom.

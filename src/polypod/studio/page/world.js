@@ -26,5 +26,7 @@ export function mountWorld(element, store, scene) {
     if (!store.document || !store.welcome || !store.creature || !store.files) return;
     for (const [, part] of parts) part.refresh();
   };
-  for (const kind of ["document", "welcome", "creature", "files"]) store.on(kind, refresh);
+  // Lists show at once what is asked for: their numbers are those that the next edit goes by.
+  const kinds = ["document", "wanted", "welcome", "creature", "files"];
+  for (const kind of kinds) store.on(kind, refresh);
 }
