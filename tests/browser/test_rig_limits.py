@@ -124,7 +124,6 @@ def test_a_typed_limit_goes_back_to_its_default(tab: Any) -> None:
     assert flexion == pytest.approx(math.radians(85.0))
     tab.keep("limits-3-hip")
     tab.page.get_by_role("button", name="Sideways either way: back to default").click()
-    tab.page.keyboard.press("Tab")
     tab.slider("LeftLeg1Coxa flexion most").focus()
     tab.page.keyboard.press("Delete")
     tab.until(lambda: tab.document["creature"]["limit"] is None, "all is as found again")

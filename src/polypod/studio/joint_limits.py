@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ import numpy as np
 
 from polypod.errors import choices
 from polypod.herd import Herd
-from polypod.ik.table import BEND_MOST, HIP_LIMIT_ERECT, HIP_LIMIT_SPRAWLING, build_ik_table
+from polypod.ik.table import BEND_MOST, HIP_LIMIT_ERECT, HIP_LIMIT_SPRAWLING, IkTable
 from polypod.morphology.creature import (
     HIP_KEYS,
     SPINE_KEYS,
@@ -28,6 +28,9 @@ from polypod.morphology.types import FloatArray, LegTable, Morphology
 from polypod.state import HerdTables
 
 Facts = dict[str, Any]
+Joint = tuple[int, int]  # leg, and number in it, 0 its hip
+# A leg may miss where it stands by so much of its length: the body stands lower, or aslant.
+CROUCH = 0.1
 
 
 class LimitedRig:
@@ -85,33 +88,33 @@ class LimitedRig:
         return override_limits(self.morphology, self._skeleton, creature)
 
 
-def why_not_standing(herd: Herd, limited: Morphology) -> str:
-    """Return in a sentence why a herd's creature cannot stand with other limits than it has."""
-    legs = limited.legs
-    changed = list(_changed_joints(herd.morphology.legs, legs))
-    # How long a leg is hangs on its hinges; those that were limited just now are named first.
-    hinges = [pair for pair in changed if np.isfinite(legs.bend_limit[pair]).any()]
-    hinges += [(int(k), int(m)) for k, m in np.argwhere(np.isfinite(legs.bend_limit[:, :, 0]))]
-    ik = build_ik_table(legs, (herd.tables.legs, herd.tables.ik))
-    for leg, joint in hinges:
+def why_not_standing(limited: Morphology, ik: IkTable, joints: Iterable[Joint]) -> str | None:
+    """Return in a sentence which of some joints keeps its leg from its stance; None: none does.
+
+    A leg is as long as its hinges let it be; a little shorter or longer the body makes up for.
+
+    Args:
+        limited: the creature with its limits.
+        ik: its legs.
+        joints: leg and number of each that may be to blame, those first that were changed last.
+    """
+    for leg, joint in joints:
+        if not np.isfinite(limited.legs.bend_limit[leg, joint]).any():
+            continue
         wanted = float(np.linalg.norm(ik.effector_stance[leg] - ik.hip_rest[leg]))
         shortest, longest = float(ik.shortest[leg]), float(ik.longest[leg])
         fault = None
-        if wanted > longest:
+        if wanted > longest + CROUCH * ik.chain_length[leg]:
             fault = f"reaches {longest:.3g} m from the hip at most"
-        elif wanted < shortest:
+        elif wanted < shortest - CROUCH * ik.chain_length[leg]:
             fault = f"folds to {shortest:.3g} m from the hip at least"
         if fault is not None:
             return (
-                f"{joint_label(limited, int(legs.joint[leg, joint]))} cannot be limited so: its "
-                f"leg to {limited.foot_name[leg]} {fault} then, and {limited.name} stands with it "
-                f"at {wanted:.3g} m"
+                f"{joint_label(limited, int(limited.legs.joint[leg, joint]))} cannot be limited "
+                f"so: its leg to {limited.foot_name[leg]} {fault} then, and {limited.name} stands "
+                f"with it at {wanted:.3g} m"
             )
-    names = choices(joint_label(limited, int(legs.joint[leg, joint])) for leg, joint in changed)
-    return (
-        f"{names or 'its joints'} cannot be limited so: {limited.name} cannot stand then, for not "
-        "every foot finds a place within reach"
-    )
+    return None
 
 
 def why_not_stepping(herd: Herd, before: HerdTables) -> str | None:
@@ -120,7 +123,7 @@ def why_not_stepping(herd: Herd, before: HerdTables) -> str | None:
     `before`: the tables that the herd had until now. A leg that took no step then is not judged.
     """
     travel = herd.tables.ik.stance_travel
-    for leg, joint in _changed_joints(before.legs, herd.morphology.legs):
+    for leg, joint in changed_joints(before.legs, herd.morphology.legs):
         if travel[leg] <= 0.0 < before.ik.stance_travel[leg]:
             row = int(herd.morphology.legs.joint[leg, joint])
             return (
@@ -130,7 +133,21 @@ def why_not_stepping(herd: Herd, before: HerdTables) -> str | None:
     return None
 
 
-def _changed_joints(before: LegTable, after: LegTable) -> Iterator[tuple[int, int]]:
+def cannot_be(limited: Morphology, joints: Iterable[Joint]) -> str:
+    """Return a sentence where nothing is known but that a creature cannot stand."""
+    names = choices(joint_label(limited, int(limited.legs.joint[pair])) for pair in joints)
+    return (
+        f"{names or 'its joints'} cannot be limited so: {limited.name} cannot stand then, for not "
+        "every foot finds a place within reach"
+    )
+
+
+def hinges_said(legs: LegTable) -> list[Joint]:
+    """Return leg and number of each hinge whose limits are said."""
+    return [(int(k), int(m)) for k, m in np.argwhere(np.isfinite(legs.bend_limit[:, :, 0]))]
+
+
+def changed_joints(before: LegTable, after: LegTable) -> Iterator[Joint]:
     """Yield leg and number of each joint whose limits are others."""
     for leg, count in enumerate(after.joint_count):
         for joint in range(int(count)):

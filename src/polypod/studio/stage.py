@@ -12,10 +12,18 @@ from polypod.gait.build import Build
 from polypod.gait.follow import PINNED, next_rung
 from polypod.gait.library import make_gait
 from polypod.herd import Herd
+from polypod.ik.table import build_ik_table
 from polypod.relimit import relimit
 from polypod.studio.asked import ask, gait_of, settings_of
 from polypod.studio.document import Document
-from polypod.studio.joint_limits import LimitedRig, why_not_standing, why_not_stepping
+from polypod.studio.joint_limits import (
+    LimitedRig,
+    cannot_be,
+    changed_joints,
+    hinges_said,
+    why_not_standing,
+    why_not_stepping,
+)
 from polypod.studio.judge import Question
 from polypod.studio.places import change_of, make_place, obstacle_poses, on_other_ground
 from polypod.studio.wandering import Wanderers, stand_beside
@@ -160,12 +168,17 @@ class Stage:
         morphology, tables = herd.morphology, herd.tables
         angles = herd.state.spine_angle.copy()
         limited = self.rig.limited(document["creature"].get("limit"))
+        changed = list(changed_joints(morphology.legs, limited.legs))
+        joints = [*changed, *hinges_said(limited.legs)]
         try:
             relimit(herd, limited)
         except SettingError:
-            raise SettingError(why_not_standing(herd, limited)) from None
+            ik = build_ik_table(limited.legs, (tables.legs, tables.ik))
+            why = why_not_standing(limited, ik, joints)
+            raise SettingError(why or cannot_be(limited, changed)) from None
         try:
-            why = why_not_stepping(herd, tables)
+            why = why_not_standing(limited, herd.tables.ik, joints)
+            why = why or why_not_stepping(herd, tables)
             if why is not None:
                 raise SettingError(why)
             # What has a default of the creature's own may have another one now.
@@ -203,6 +216,10 @@ class Stage:
                 raise
             # The ground there is another now.
             first = world.add(morphology, position=[0.0, 0.0], heading=heading, settings=settings)
+        if document["creature"].get("limit"):
+            why = why_not_standing(morphology, first.tables.ik, hinges_said(morphology.legs))
+            if why is not None:
+                raise SettingError(why)
         ask(first, document, None)
         crowd = stand_beside(world, first, kinds)
         self.world = world

@@ -19,9 +19,12 @@ export class LimitEditor {
     this.stroked = null; // what keys are moving, and since when
   }
 
-  // All limits that are said now: by the document, else by the creature's file.
+  // All limits that are said now: by what was asked for and is still on its way, else by the
+  // document, else by the creature's file.
   said() {
-    return this.store.document.creature.limit ?? this.store.creature.file_limit;
+    const waits = this.gesture.pending(AT);
+    const asked = waits === undefined ? this.store.document.creature.limit : waits;
+    return asked ?? this.store.creature.file_limit;
   }
 
   // The same joint of the leg on the other side, or null.
