@@ -17,7 +17,8 @@ import { Toolbar } from "/page/toolbar.js";
 import { Tools } from "/page/tools.js";
 
 const PRINT = 2; // pixels of a picture that is kept, for one of the view's
-const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on
+const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on;
+const OWED = 2; // pictures at least, where these take longer
 // What may make the view look another while time stands: what the page is told, and what hands do to
 // it and to the page.
 const TOLD = [
@@ -74,6 +75,7 @@ class Scene {
 
   stir() {
     this.stirred = performance.now();
+    this.owed = OWED;
   }
 
   // Pictures that were drawn, for whoever measures.
@@ -122,12 +124,13 @@ class Scene {
     const elapsed = (now - this.lastDrawn) / 1000;
     const { walks, painter } = this;
     this.tools.hover();
-    if (!walks && now - this.stirred > CALM) {
+    if (!walks && this.owed <= 0 && now - this.stirred > CALM) {
       painter.rest();
       return;
     }
     if (!this.playback.advance(now)) return;
     this.lastDrawn = now;
+    this.owed -= 1;
     // Here, since a canvas of another size is empty until it is drawn.
     painter.use(painter.wanted);
     this.creatures.update(this.playback);
