@@ -75,6 +75,10 @@ class Tab:
                 raise AssertionError(f"not within {seconds:g} s: {what}; it says {self.words!r}")
             self.page.wait_for_timeout(50)
 
+    def until_drawn(self) -> None:
+        """Wait until all that has happened is in the picture, while time stands."""
+        self.until(lambda: self.ask("polypod.scene.owed <= 0"), "it is drawn")
+
     def leave(self) -> None:
         """Take the focus off everything, so that keys are for the page."""
         self.ask("document.activeElement.blur()")
