@@ -19,8 +19,8 @@ import { Tools } from "/page/tools.js";
 const PRINT = 2; // pixels of a picture that is kept, for one of the view's
 const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on;
 const OWED = 2; // pictures at least, where these take longer
-// What may make the view look another while time stands: what the page is told, and what hands do to
-// it and to the page.
+// What may make the view look another while time stands: what the page is told ("skin" and "ground" it
+// tells itself, when they are there to be drawn), and what hands do to it and to the page.
 const TOLD = [
   "frame", "arrays", "document", "creature", "kinds", "clock", "tape", "link", "skin", "ground",
 ];

@@ -21,8 +21,7 @@ export class Store {
   }
 
   // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
-  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words"; "skin" and "ground" when
-  // these are there to be drawn. Returns how to stop.
+  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words". Returns how to stop.
   on(kind, listener) {
     if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
     this.listeners.get(kind).add(listener);
