@@ -10,13 +10,15 @@ it takes from a move of the mouse, with the handle of the body height's slider h
 of the first frame that was computed with it, median and 95th percentile. `move` counts from the
 browser's stamp on the mouse's event, `order` from when the page got round to it and sent: what lies
 between is the page at work on its picture. `drawn` is from the move to the first picture of that
-frame. Beside it the cores that the server and Chromium kept busy, and the machine's load: figures
-from a machine on which others work tell little.
+frame. `wheel` is `move` for the handle of a gait wheel: its first frame is one in which a foot's
+swing lasts longer or shorter. Beside it the cores that the server and Chromium kept busy, and the
+machine's load: figures from a machine on which others work tell little.
 """
 
 from __future__ import annotations
 
 import argparse
+import cmath
 import os
 import re
 import shutil
@@ -29,6 +31,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from chromium import FLAGS
 from playwright.sync_api import Page, sync_playwright
 
 KINDS = ("wolf", "ant", "biped", "crab")
@@ -37,40 +40,39 @@ CROWDS: dict[str, list[dict[str, Any]]] = {
     "herd": [{"rig": "spider", "count": 99}],
     "mixed": [{"rig": "spider", "count": 39}, *({"rig": rig, "count": 40} for rig in KINDS)],
 }
-FLAGS = (
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost",
-)
 SCREEN = {"width": 1280, "height": 720}
 PATIENCE = 240.0  # s: a cold start compiles
 SETTLE = 3.0  # s after a crowd has come, before anything is measured
 STROKE = 30  # pixels of a drag
 THUMB = 16  # pixels of a slider's handle
 SLIDER = "Body height"
+ROUND = 0.06  # cycles of a drag on a wheel
+HANDLE = re.compile(" swing finish$")
 
 # Times, ms, of what one drag does: the mouse's event, the order, the frame, the picture. The frame
-# that was computed with a body height carries it.
+# that was computed with a body height carries it; a gait is blended to, and begins to at once.
 WATCH = """() => {
   const { polypod } = window;
   const drags = window.drags = [];
   let moved = 0;
-  window.addEventListener("pointermove", (event) => { moved = event.timeStamp; }, true);
-  window.addEventListener("input", (event) => {
-    const before = polypod.frame.focus.preferredHeight;
-    const value = Math.fround(Number(event.target.value));
-    drags.push({ moved, sent: performance.now(), before, value });
-  }, true);
+  const move = "onpointerrawupdate" in window ? "pointerrawupdate" : "pointermove";
+  window.addEventListener(move, (event) => { moved = event.timeStamp; }, true);
+  const effect = ({ at, to }) => {
+    if (at[0] === "command") {
+      const value = Math.fround(to);
+      return ({ focus }) => Math.abs(focus.preferredHeight - value) < 1e-6;
+    }
+    const before = polypod.frame.focus.feet.map(({ extent }) => extent);
+    return ({ focus }) => focus.feet.some(({ extent }, k) => Math.abs(extent - before[k]) > 1e-5);
+  };
+  const send = polypod.link.send.bind(polypod.link);
+  polypod.link.send = (order) => {
+    if (order.do === "edit") drags.push({ moved, sent: performance.now(), shows: effect(order) });
+    return send(order);
+  };
   polypod.on("frame", (frame) => {
-    const drag = drags.at(-1);
-    if (!drag || drag.frame || Math.abs(frame.focus.preferredHeight - drag.value) > 1e-6) return;
+    const [drag] = drags;
+    if (!drag || drag.frame || !drag.shows(frame)) return;
     drag.frame = performance.now();
     const look = () => {
       if (polypod.scene.playback.to?.time >= frame.time) drag.drawn = performance.now();
@@ -79,9 +81,13 @@ WATCH = """() => {
     requestAnimationFrame(look);
   });
 }"""
+FOUND = """() => {
+  const [{ moved, sent, frame, drawn }] = window.drags;
+  return { moved, sent, frame, drawn };
+}"""
 HEAD = """\
-            of real frames      a second   bytes      move,     order,     drawn,   cores busy
-crowd     n    time   made   recv  drawn of each  ms   95 %  ms   95 %  ms   95 %  server page  load
+            of real frames      a second   bytes  move,      order,     drawn,     wheel,
+crowd     n    time   made   recv  drawn of each  ms   95 %  ms   95 %  ms   95 %  ms   95 %  cores
 """
 COUNT = """() => {
   const { link, scene, frame } = window.polypod;
@@ -103,6 +109,7 @@ class Row(NamedTuple):
     size: float  # bytes per creature and frame
     cores: tuple[float, float]  # of the server and of Chromium
     delays: np.ndarray[Any, Any]
+    wheel: np.ndarray[Any, Any]  # [drags] ms
     load: float
 
 
@@ -125,7 +132,7 @@ def served() -> Iterator[tuple[str, int]]:
 def opened(address: str, chromium: str) -> Iterator[Page]:
     """Open the page in a fresh Chromium."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
+        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         try:
             page = browser.new_page(viewport=SCREEN)
             page.goto(address)
@@ -161,9 +168,12 @@ def measure(page: Page, crowd: str, seconds: float, drags: int, server: int) -> 
     creatures = 1 + sum(kind["count"] for kind in kinds)
     share = float(np.mean(page.evaluate("() => window.shares")))
     delays = np.array([drag(page, n) for n in range(drags)])
+    page.get_by_role("tab", name="Gait").click()
+    wheel = np.array([turn(page, n) for n in range(drags)])
+    page.get_by_role("tab", name="Body").click()
     return Row(
         creatures, share, passed[1:4] / passed[0], passed[4] / passed[2] / creatures,
-        cores, delays, os.getloadavg()[0],
+        cores, delays, wheel, os.getloadavg()[0],
     )  # fmt: skip
 
 
@@ -176,20 +186,45 @@ def drag(page: Page, number: int) -> list[float]:
         "box.width, (e.value - e.min) / (e.max - e.min)]; }"
     )
     x = left + THUMB / 2 + share * (width - THUMB)
-    to = x - STROKE if share > 0.5 else x + STROKE
-    page.mouse.move(x, y)
-    page.mouse.down()
-    # Whatever pressing it has moved is not what is measured; each begins elsewhere in a frame.
-    page.wait_for_timeout(300 + 37 * (number % 10))
-    page.evaluate("() => { drags.length = 0; }")
-    page.mouse.move(to, y)
-    wait(page, "Boolean(drags.at(-1)?.drawn)")
-    found = page.evaluate("() => drags.at(-1)")
-    page.mouse.up()
+    found = hold(page, (x, y), (x - STROKE if share > 0.5 else x + STROKE, y), number)
     return [
         found["frame"] - found["moved"], found["frame"] - found["sent"],
         found["drawn"] - found["moved"],
     ]  # fmt: skip
+
+
+def turn(page: Page, number: int) -> float:
+    """Drag the handle of a wheel round it, to and fro by turns; how long its frame took, ms."""
+    handle = page.get_by_role("slider", name=HANDLE).first
+    handle.scroll_into_view_if_needed()
+    box = handle.bounding_box()
+    wheel = handle.locator("xpath=ancestor::*[local-name()='svg']").bounding_box()
+    assert box is not None
+    assert wheel is not None
+    middle = complex(wheel["x"] + wheel["width"] / 2, wheel["y"] + wheel["height"] / 2)
+    begin = complex(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    way = cmath.exp(2j * cmath.pi * (ROUND if number % 2 else -ROUND))
+    end = middle + (begin - middle) * way
+    found = hold(page, (begin.real, begin.imag), (end.real, end.imag), number)
+    # Its blend ends before the next.
+    page.wait_for_timeout(600)
+    return float(found["frame"] - found["moved"])
+
+
+def hold(
+    page: Page, begin: tuple[float, float], end: tuple[float, float], number: int
+) -> dict[str, float]:
+    """Press at a place, move to another, let go; the times of what that did, ms."""
+    page.mouse.move(*begin)
+    page.mouse.down()
+    # Whatever pressing it has moved is not what is measured; each begins elsewhere in a frame.
+    page.wait_for_timeout(300 + 37 * (number % 10))
+    page.evaluate("() => { drags.length = 0; }")
+    page.mouse.move(*end)
+    wait(page, "Boolean(drags[0]?.drawn)")
+    found: dict[str, float] = page.evaluate(FOUND)
+    page.mouse.up()
+    return found
 
 
 def wait(page: Page, condition: str) -> None:
@@ -240,9 +275,10 @@ def show(crowd: str, row: Row) -> None:
         f"{crowd:6} {row.creatures:4} {100 * row.share:5.0f} % "
         f"{made:6.1f} {received:6.1f} {drawn:6.1f} {row.size:7.0f}  "
         + "  ".join(
-            f"{np.median(column):4.0f} {np.percentile(column, 95):4.0f}" for column in row.delays.T
+            f"{np.median(column):4.0f} {np.percentile(column, 95):4.0f}"
+            for column in (*row.delays.T, row.wheel)
         )
-        + f"  {row.cores[0]:5.2f} {row.cores[1]:5.2f} {row.load:5.1f}",
+        + f"  {row.cores[0]:.1f}+{row.cores[1]:.1f}  load {row.load:.0f}",
         flush=True,
     )
 

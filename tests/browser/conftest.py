@@ -18,21 +18,12 @@ from typing import Any
 
 import pytest
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+
+from chromium import FLAGS
+
 PICTURES = Path(__file__).parents[2] / "out" / "browser"
 CHROMIUM = Path(os.environ.get("POLYPOD_CHROMIUM", "/usr/bin/chromium"))
-# Whatever leaves this computer fails, and loudly.
-FLAGS = [
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost",
-]
 START = 400.0  # s: kernels may have to be compiled
 PATIENCE = 30.0  # s: a machine without a GPU draws a few frames a second
 
@@ -83,6 +74,10 @@ class Tab:
             if time.monotonic() > end:
                 raise AssertionError(f"not within {seconds:g} s: {what}; it says {self.words!r}")
             self.page.wait_for_timeout(50)
+
+    def until_drawn(self) -> None:
+        """Wait until all that has happened is in the picture, while time stands."""
+        self.until(lambda: self.ask("polypod.scene.owed <= 0"), "it is drawn")
 
     def leave(self) -> None:
         """Take the focus off everything, so that keys are for the page."""

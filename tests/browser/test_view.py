@@ -47,8 +47,7 @@ def pause(tab: Any) -> None:
     for _ in range(2):
         tab.page.mouse.wheel(0, 400)
     tab.page.mouse.move(20, 300)
-    drawn = tab.ask("polypod.scene.drawn")
-    tab.until(lambda: tab.ask("polypod.scene.drawn") > drawn + 2, "it is drawn")
+    tab.until_drawn()
 
 
 def with_crate(tab: Any) -> dict[str, Any]:
@@ -58,8 +57,7 @@ def with_crate(tab: Any) -> dict[str, Any]:
     crate = {**CRATE, "position": [here[0] + 0.5, 0.04, here[2] + 0.3]}
     tab.ask(f"polypod.edit(['obstacle', 0], {json.dumps(crate)})")
     tab.until(lambda: tab.ask("polypod.frame.obstacles.length") == 7, "the crate is there")
-    drawn = tab.ask("polypod.scene.drawn")
-    tab.until(lambda: tab.ask("polypod.scene.drawn") > drawn + 1, "the crate is drawn")
+    tab.until_drawn()
     return crate
 
 
@@ -117,8 +115,7 @@ def test_a_drag_on_the_body_pushes_it(tab: Any) -> None:
     tab.page.mouse.move(*begin)
     tab.page.mouse.down()
     tab.page.mouse.move(*end, steps=5)
-    drawn = tab.ask("polypod.scene.drawn")
-    tab.until(lambda: tab.ask("polypod.scene.drawn") > drawn + 1, "the arrow is drawn")
+    tab.until_drawn()
     tab.keep("scene-push")
     tab.page.mouse.up()
     (push,) = [order for order in tab.ask("window.sent") if order["do"] == "push"]
@@ -225,15 +222,18 @@ def test_side_views_are_from_the_side_and_the_view_follows(tab: Any) -> None:
     views = {"side": [1.0, 0.0], "front": [0.0, 1.0]}
     for name, (left, ahead) in views.items():
         tab.page.get_by_label("Camera").select_option(name)
-        tab.page.wait_for_timeout(1200)
-        eye, target, heading = tab.ask(
-            """(() => { const c = polypod.scene.cameras; return [c.camera.position.toArray(),
-            c.controls.target.toArray(), c.heading]; })()"""
-        )
-        away = np.array(eye) - np.array(target)
-        sine, cosine = math.sin(heading), math.cos(heading)
-        way = np.array([cosine * left + sine * ahead, cosine * ahead - sine * left])
-        assert away[[0, 2]] @ way / np.hypot(away[0], away[2]) > 0.999
+
+        def off(left: float = left, ahead: float = ahead) -> float:
+            eye, target, heading = tab.ask(
+                """(() => { const c = polypod.scene.cameras; return [c.camera.position.toArray(),
+                c.controls.target.toArray(), c.heading]; })()"""
+            )
+            away = np.array(eye) - np.array(target)
+            sine, cosine = math.sin(heading), math.cos(heading)
+            way = np.array([cosine * left + sine * ahead, cosine * ahead - sine * left])
+            return 1.0 - away[[0, 2]] @ way / np.hypot(away[0], away[2])
+
+        tab.until(lambda off=off: off() < 0.001, f"it is seen from the {name}")
         tab.keep(f"scene-{name}")
     tab.page.get_by_label("Camera").select_option("follow")
     tab.page.wait_for_timeout(500)
@@ -256,7 +256,8 @@ def test_frame_shows_the_whole_creature(tab: Any) -> None:
 
 def test_each_overlay_has_a_switch_that_is_remembered(tab: Any) -> None:
     here = centre(tab)
-    tab.ask(f"polypod.edit(['path'], [[{here[0]}, {here[2] + 3.0}]])")
+    # So far away that it walks all the while.
+    tab.ask(f"polypod.edit(['path'], [[{here[0]}, {here[2] + 60.0}]])")
     for title, parts in PARTS.items():
         tab.page.get_by_role("button", name="Overlays").click()
         switch = tab.page.get_by_role("checkbox", name=title)

@@ -35,6 +35,7 @@ class FakeRunner:
         self.said: list[dict[str, Any]] = []
         self.refuses: str | None = None
         self.silent = False
+        self.last: bytes | None = None
         stage = SimpleNamespace(document=default_document())
         self.conductor = SimpleNamespace(
             stage=stage, tape=None, take=self._take, say=self.said.append
@@ -65,7 +66,7 @@ class FakeRunner:
         return [{"is": "welcome", "fps": 60}, {"is": "clock", "time": 0.0}]
 
     def newest(self) -> bytes | None:
-        return None
+        return self.last
 
     def skin(self, number: int) -> bytes | None:
         return b"skin" if number == 3 else None

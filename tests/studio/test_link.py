@@ -52,6 +52,12 @@ def test_the_first_tab_drives_and_others_are_told_so(studio: Served) -> None:
         assert ask(second, do="ack", frame=7, id=5) == {"is": "done", "id": 5}
 
 
+def test_a_tab_that_comes_while_time_stands_sees_where_everything_is(studio: Served) -> None:
+    studio.runner.last = struct.pack("<II", 1, 7)
+    with studio.tab() as tab:
+        assert frame_number(tab.receive_bytes()) == 7
+
+
 def test_another_tab_takes_over(studio: Served) -> None:
     with studio.tab() as first, studio.tab() as second:
         second.send_json({"do": "drive", "id": 1})

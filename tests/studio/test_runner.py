@@ -92,6 +92,48 @@ def test_paused_it_stands_and_goes_on_by_steps(runner: Runner) -> None:
     assert after - before == pytest.approx(3.0 / 60.0)
 
 
+def test_lost_time_is_made_up_for_evenly(runner: Runner) -> None:
+    assert give(runner, do="clock", playing=True, rate=1.0) is None
+    begun: list[float] = []
+
+    def watch(conductor: Any) -> None:
+        step = conductor.step
+
+        def stepped(dt: float) -> None:
+            begun.append(time.perf_counter())
+            if len(begun) == 5:
+                time.sleep(0.08)
+            step(dt)
+
+        conductor.step = stepped
+
+    runner.call(watch).result(PATIENCE)
+    hear(runner, "frame", 20)
+    runner.call(lambda conductor: conductor.__dict__.pop("step")).result(PATIENCE)
+    # Five steps are due after the long one; they come one by one.
+    assert min(b - a for a, b in pairwise(begun)) > 0.9 / (60.0 * 1.5)
+
+
+def test_what_the_planner_sees_is_told_again_only_when_something_moves(runner: Runner) -> None:
+    assert give(runner, do="clock", playing=False) is None
+    told: list[str] = []
+    stop = runner.listen(lambda event: told.append(event.name) if event.kind == "arrays" else None)
+    runner.watched(frozenset({"cells"}))
+
+    def rest(conductor: Any) -> None:
+        for _ in range(3):
+            conductor.rest()
+            time.sleep(0.21)  # longer than between two tellings
+
+    runner.call(rest).result(PATIENCE)
+    assert told == ["cells"]
+    assert give(runner, do="clock", steps=1) is None
+    runner.call(rest).result(PATIENCE)
+    stop()
+    runner.watched(frozenset())
+    assert told == ["cells", "cells"]
+
+
 def test_orders_are_answered_and_undone(runner: Runner) -> None:
     assert give(runner, do="edit", at=["command", "speed"], to=0.6) is None
     refusal = give(runner, do="edit", at=["command", "speed"], to=60.0)

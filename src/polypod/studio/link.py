@@ -104,6 +104,10 @@ class Hub:
                 self._loop, self._heard = loop, Outbox()
             self._stop_listening = self.runner.listen(self.hear)
         self.tabs.append(tab)
+        # While time stands no other comes; it waits behind the greeting.
+        newest = self.runner.newest()
+        if newest is not None:
+            tab.put(Telling("frame", newest))
         if self.driver is None:
             self.driver = tab
 

@@ -23,6 +23,8 @@ Result = TypeVar("Result")
 # What it is behind by more than this is not made up for, s; and how often it says how it keeps up.
 MOST_BEHIND = 0.1
 TELL_EVERY = 0.25
+# While it makes up for lost time, so many times faster and no more: no burst is seen.
+CATCH_UP = 1.5
 IDLE = 0.25  # s for which it sleeps while nothing happens
 
 
@@ -149,7 +151,7 @@ class Runner:
     def _walk(self) -> None:
         """Carry out orders and walk, in step with the clock on the wall."""
         conductor = self._conductor
-        due = time.perf_counter()
+        due = soonest = time.perf_counter()
         told = walked = 0.0
         began = due
         while not self._stopped:
@@ -164,15 +166,16 @@ class Runner:
                 continue
             if now - due > MOST_BEHIND:
                 due = now - MOST_BEHIND
-            if now >= due:
+            if now >= max(due, soonest):
                 self._step()
                 walked += step
                 due += step
+                soonest = now + step / CATCH_UP
             if now - told > TELL_EVERY:
                 conductor.behind = min(walked / max(now - began, step), 1.0)
                 began, walked, told = now, 0.0, now
                 conductor.tell_clock()
-            self._sleep(max(due - time.perf_counter(), 0.0))
+            self._sleep(max(due, soonest) - time.perf_counter())
 
     def _step(self) -> None:
         """Walk on; a fault of ours stops time and is told, and the page goes on."""

@@ -91,7 +91,8 @@ function viewPart(scene) {
 // How finely it is drawn.
 function qualityChoice(painter) {
   const choice = makeChoice("Picture quality", (pinned) => painter.choose(pinned));
-  fillChoice(choice, Object.entries(QUALITIES).map(([name, { title }]) => [name, title]), painter.pinned);
+  const options = Object.entries(QUALITIES).map(([value, { title }]) => make("option", { value }, title));
+  choice.append(make("optgroup", { label: "Picture quality" }, ...options));
   painter.onChange(() => {
     choice.value = painter.pinned;
     choice.title = `Picture quality: ${QUALITIES[painter.pinned].hint}`;

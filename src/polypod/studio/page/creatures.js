@@ -5,7 +5,7 @@ import { THREE } from "three";
 import { blendPose } from "/page/playback.js";
 import { decodeArrays } from "/page/frames.js";
 import { COARSE, coarsened, CRUDE } from "/page/coarse.js";
-import { dropMesh, herdMesh, poseTexture, shine, showRows } from "/page/skinning.js";
+import { dropMesh, herdMesh, poseTexture, showRows } from "/page/skinning.js";
 
 const FINE = 300; // vertices: with fewer there are no coarser skins
 const SHADOW = 3; // radii about a creature in which its shadow may still be seen
@@ -18,7 +18,7 @@ export class Creatures {
     this.matrix = new THREE.Matrix4();
     this.ball = new THREE.Sphere();
     this.herds = [];
-    this.refine([0, 0], true);
+    this.small = [0, 0]; // pixels high, below which a creature has its coarse and its crude skin
     this.skins = new Map(); // N: promise of arrays
     store.on("kinds", ({ kinds }) => this.rebuild(kinds));
   }
@@ -35,23 +35,13 @@ export class Creatures {
     for (const n of this.skins.keys()) if (!wanted.has(n)) this.skins.delete(n);
     for (const herd of this.herds) {
       this.skin(herd.skin)
-        .then((arrays) => { if (this.herds.includes(herd)) this.dress(herd, arrays); })
+        .then((arrays) => {
+          if (!this.herds.includes(herd)) return;
+          herd.dress(this.scene, arrays);
+          this.store.tell("skin", herd.skin);
+        })
         .catch((problem) => this.store.say(`A creature's skin did not come: ${problem.message}.`));
     }
-  }
-
-  dress(herd, arrays) {
-    herd.dress(this.scene, arrays, this.lit);
-    this.store.tell("skin", herd.skin);
-  }
-
-  // Draw creatures with their coarse and their crude skin that are less than `small` pixels high, and
-  // let them shine a little or not.
-  refine(small, lit) {
-    this.small = small;
-    if (this.lit === lit) return;
-    this.lit = lit;
-    for (const { skins } of this.herds) for (const mesh of skins) shine(mesh, lit);
   }
 
   // The arrays of /skin/N, fetched once.
@@ -125,19 +115,18 @@ class Herd {
     this.radius = 0; // m about the body that holds the skin
   }
 
-  dress(scene, arrays, lit) {
+  dress(scene, arrays) {
     this.arrays = arrays;
     this.box = boxOf(arrays.place.data);
     const [x0, y0, z0, x1, y1, z1] = this.box;
     this.radius = 0.5 * Math.hypot(x1 - x0, y1 - y0, z1 - z0);
-    this.add(scene, arrays, lit);
+    this.add(scene, arrays);
     if (arrays.place.shape[0] < FINE) return;
-    for (const how of [COARSE, CRUDE]) this.add(scene, coarsened(arrays, this.radius, how), lit);
+    for (const how of [COARSE, CRUDE]) this.add(scene, coarsened(arrays, this.radius, how));
   }
 
-  add(scene, arrays, lit) {
+  add(scene, arrays) {
     const mesh = herdMesh(arrays, this.texture, this.count);
-    shine(mesh, lit);
     this.skins.push(mesh);
     scene.add(mesh);
   }

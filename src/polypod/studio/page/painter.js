@@ -87,12 +87,12 @@ export class Painter {
     const { sky, creatures } = this.parts;
     this.fit(this.pixels);
     sky.grain(next.shadow);
-    creatures.refine(next.small, next.lit);
+    creatures.small = next.small;
     pace.most = next.panels;
     this.renderer.shadowMap.type = next.soft ? THREE.PCFShadowMap : THREE.BasicShadowMap;
     if (before?.soft !== next.soft) {
-      this.scene.traverse(({ material, userData }) => {
-        for (const one of [material, ...Object.values(userData)]) if (one?.isMaterial) one.needsUpdate = true;
+      this.scene.traverse(({ material }) => {
+        for (const one of [material ?? []].flat()) one.needsUpdate = true;
       });
     }
     this.renderer.shadowMap.needsUpdate = true;

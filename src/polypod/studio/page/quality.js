@@ -2,14 +2,13 @@
 // how long pictures take, and says at which level to go on.
 
 // `pixels` of the picture, at most, for one of the page's; `shadow`: side of its map, redrawn `every`
-// so many pictures, its edges `soft` or not; `lit`: creatures shine a little; `small`: pixels that a
-// creature is high, below which it has its coarse and its crude skin; `panels`: how often a second
-// wheels and plots are drawn at most.
+// so many pictures, its edges `soft` or not; `small`: pixels that a creature is high, below which it
+// has its coarse and its crude skin; `panels`: how often a second wheels and plots are drawn at most.
 export const LEVELS = [
-  { pixels: 2, shadow: 2048, every: 1, soft: true, lit: true, small: [60, 20], panels: 60 },
-  { pixels: 1, shadow: 1024, every: 1, soft: false, lit: true, small: [110, 40], panels: 15 },
-  { pixels: 0.75, shadow: 1024, every: 2, soft: false, lit: false, small: [160, 70], panels: 10 },
-  { pixels: 0.55, shadow: 512, every: 2, soft: false, lit: false, small: [220, 110], panels: 8 },
+  { pixels: 2, shadow: 2048, every: 1, soft: true, small: [60, 20], panels: 60 },
+  { pixels: 1, shadow: 1024, every: 1, soft: false, small: [110, 40], panels: 15 },
+  { pixels: 0.75, shadow: 1024, every: 2, soft: false, small: [140, 60], panels: 10 },
+  { pixels: 0.55, shadow: 512, every: 2, soft: false, small: [260, 120], panels: 8 },
 ];
 export const BEST = 0;
 export const FASTEST = LEVELS.length - 1;

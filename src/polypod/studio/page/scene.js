@@ -20,9 +20,10 @@ const PRINT = 2; // pixels of a picture that is kept, for one of the view's
 const SMALL = 0.5; // radii of the creature: what reaches no farther is as good as a point
 const SEEN = 0.8; // of the half picture: what is new is well within
 const TURNS = [0, 0.5, -0.5, 1, -1]; // rad off the creature's heading, where there is room for it
-const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on
-// What may make the view look another while time stands: what the page is told, and what hands do to
-// it and to the page.
+const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on;
+const OWED = 2; // pictures at least, where these take longer
+// What may make the view look another while time stands: what the page is told ("skin" and "ground" it
+// tells itself, when they are there to be drawn), and what hands do to it and to the page.
 const TOLD = [
   "frame", "arrays", "document", "creature", "limits", "kinds", "clock", "tape", "backdrop", "link",
   "skin", "ground",
@@ -78,6 +79,7 @@ class Scene {
 
   stir() {
     this.stirred = performance.now();
+    this.owed = OWED;
   }
 
   // Pictures that were drawn, for whoever measures.
@@ -129,12 +131,13 @@ class Scene {
     const elapsed = (now - this.lastDrawn) / 1000;
     const { walks, painter } = this;
     this.tools.hover();
-    if (!walks && now - this.stirred > CALM) {
+    if (!walks && this.owed <= 0 && now - this.stirred > CALM) {
       painter.rest();
       return;
     }
     if (!this.playback.advance(now)) return;
     this.lastDrawn = now;
+    this.owed -= 1;
     // Here, since a canvas of another size is empty until it is drawn.
     painter.use(painter.wanted);
     this.creatures.update(this.playback);

@@ -71,10 +71,8 @@ export function herdMesh(arrays, texture, count) {
   geometry.setAttribute("color", new THREE.BufferAttribute(linear(colour.data), 3));
   geometry.setIndex(new THREE.BufferAttribute(triangles.data, 1));
   // Thin parts are often modelled from one side only, so both are shown.
-  const look = { vertexColors: true, side: THREE.DoubleSide };
-  const bright = new THREE.MeshStandardMaterial({ ...look, roughness: 0.75, metalness: 0 });
-  const mesh = new THREE.Mesh(geometry, skin(bright, texture));
-  mesh.userData = { bright, plain: skin(new THREE.MeshLambertMaterial(look), texture) };
+  const look = { vertexColors: true, roughness: 0.75, metalness: 0, side: THREE.DoubleSide };
+  const mesh = new THREE.Mesh(geometry, skin(new THREE.MeshStandardMaterial(look), texture));
   const depth = new THREE.MeshDepthMaterial({ depthPacking: THREE.RGBADepthPacking });
   mesh.customDepthMaterial = skin(depth, texture);
   // Where it is only the shader knows.
@@ -82,11 +80,6 @@ export function herdMesh(arrays, texture, count) {
   mesh.castShadow = true;
   mesh.receiveShadow = true;
   return mesh;
-}
-
-// Let it shine a little, or be plain, which is quicker to draw.
-export function shine(mesh, lit) {
-  mesh.material = lit ? mesh.userData.bright : mesh.userData.plain;
 }
 
 // Draw the creatures of the first `count` rows of the mesh's own list.
@@ -99,7 +92,7 @@ export function showRows(mesh, count) {
 export function dropMesh(scene, mesh) {
   scene.remove(mesh);
   mesh.geometry.dispose();
-  for (const material of Object.values(mesh.userData)) material.dispose();
+  mesh.material.dispose();
   mesh.customDepthMaterial.dispose();
 }
 
