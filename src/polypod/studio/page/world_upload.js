@@ -107,13 +107,25 @@ export class WorldUpload {
   }
 
   async save() {
-    const name = namesFiles(this.store.document) ? "scene.zip" : "scene.toml";
+    const { store } = this;
     try {
-      const answer = await this.store.fetch(`/export/${name}`);
-      saveAs(await answer.blob(), name);
+      if (!namesFiles(store.document)) return await this.take("scene.toml");
+      try {
+        return await this.take("scene.zip");
+      } catch (error) {
+        // What is too large for a zip lies where its scene was opened.
+        await this.take("scene.toml");
+        store.say(`${error.message}; saved is the scene alone, to lie where they are.`);
+      }
     } catch (error) {
-      this.store.say(error.message);
+      store.say(error.message);
     }
+    return undefined;
+  }
+
+  async take(name) {
+    const answer = await this.store.fetch(`/export/${name}`);
+    saveAs(await answer.blob(), name);
   }
 }
 
