@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from polypod.environment.scene import read_scene
 from polypod.errors import PolypodError, SceneError
 from polypod.morphology.builtin import build
+from polypod.morphology.load import load_rig
 from polypod.studio import mesh_limits
 from polypod.studio.document import default_document, judged
 from polypod.studio.luggage import Luggage
@@ -108,7 +109,7 @@ def test_a_scene_with_files_opens_is_walked_saved_and_opened_again(
 
     data = scene_zip(document, rigs, files)
     names = set(zipfile.ZipFile(io.BytesIO(data)).namelist())
-    assert names == {"scene.toml", "block.obj", "hills.npy", "wet.png"}
+    assert names == {"scene.toml", "things/block.obj", "ground/hills.npy", "ground/wet.png"}
     # By the command line, unpacked.
     folder = tmp_path / "second"
     folder.mkdir()
@@ -170,13 +171,32 @@ def test_tiles_and_rigs_come_along(studio: Served) -> None:
     assert document["creature"]["rig"].startswith("upload:")
     saved = studio.client.get("/export/scene.zip", headers=OURS).content
     names = zipfile.ZipFile(io.BytesIO(saved)).namelist()
-    assert "tiles/1_0.npy" in names
+    assert "t/1_0.npy" in names
     assert "mine.glb" in names
     answer = studio.client.post("/scene", headers=OURS, content=saved)
     assert answer.status_code == 200, answer.text
     stage = Stage(answer.json()["document"], studio.rigs.find, studio.files)
     for _ in range(10):
         stage.step(STEP)
+
+
+def test_a_creature_file_comes_along_with_its_rig(studio: Served, tmp_path: Path) -> None:
+    (tmp_path / "legs").mkdir()
+    (tmp_path / "legs" / "body.glb").write_bytes(build("ant").glb)
+    (tmp_path / "legs" / "mine.toml").write_text('rig = "body.glb"\nheight = 0.5\n')
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[[creature]]\nrig = "legs/mine.toml"\n')
+    rigs, files = GivenRigs(), WorldFiles()
+    document = opened(scene, rigs, files)
+    data = scene_zip(document, rigs, files)
+    names = zipfile.ZipFile(io.BytesIO(data)).namelist()
+    assert sorted(names) == ["body.glb", "mine.toml", "scene.toml"]
+    answer = studio.client.post("/scene", headers=OURS, content=data)
+    assert answer.status_code == 200, answer.text
+    rig = load_rig(studio.rigs.find(answer.json()["document"]["creature"]["rig"]))
+    skeleton = rig.legs.length
+    assert skeleton == pytest.approx(load_rig(scene.parent / "legs" / "mine.toml").legs.length)
+    rigs.close()
 
 
 @pytest.mark.parametrize("name", ["../block.obj", "/etc/passwd.obj", "link.obj", "a/../../b.obj"])

@@ -54,7 +54,7 @@ def test_a_mesh_is_stood_on_and_resized_while_it_walks(files: WorldFiles) -> Non
     with pytest.raises(SettingError, match="not split so"):
         stage.apply(edited(stage.document, ["obstacle", 0, "concavity"], 0.5))
     with pytest.raises(SettingError, match="not in the studio"):
-        stage.apply(edited(stage.document, ["obstacle", 0, "file"], "upload:0"))
+        stage.apply(edited(stage.document, ["obstacle", 0, "file"], "upload:" + 64 * "0"))
 
 
 def test_a_mesh_is_posted_drawn_and_named(studio: Served) -> None:

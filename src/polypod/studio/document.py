@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
@@ -44,6 +45,7 @@ OPTIONAL = ("obstacle", "terrain")
 MOST_OBSTACLES, MOST_WAYPOINTS, MOST_CREATURES, MOST_FEET = 500, 256, 200, 256
 MOST_LIMITS = 1000  # joints
 WIDEST_SPACING = 10.0  # m
+GIVEN = re.compile(r"upload:[0-9a-f]{64}")
 # Keys of an obstacle that is a mesh.
 MESH = (
     "name", "shape", "position", "yaw", "rotation", "forbidden", *MOTION, "file", "size", *SPLIT,
@@ -263,7 +265,9 @@ def still_obstacle(index: int, values: Any, own_size: Sequence[float]) -> Obstac
     """
     place = f"obstacle {index + 1}"
     if isinstance(values, dict) and values.get("shape") == "mesh":
-        SceneTable(f"{place}, a mesh,", values, MESH).text("file")
+        table = SceneTable(f"{place}, a mesh,", values, MESH)
+        if not GIVEN.fullmatch(table.text("file")):
+            table.fail("file", "one that was given to the studio: upload: and its SHA-256")
         box = {key: value for key, value in values.items() if key not in ("file", *SPLIT)}
         values = {"size": list(own_size), **box, "shape": "box"}
     return read_obstacle(None, place, values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,17 @@ def _creatures(document: Document) -> list[dict[str, Any]]:
     return [first, *(dict(kind) for kind in document["crowd"])]
 
 
+def creature_text(values: dict[str, Any]) -> str:
+    """Return what a creature file says as its text."""
+    parts = ("body", "foot", "limit")
+    text = [table("", {key: value for key, value in values.items() if key not in parts})]
+    if "body" in values:
+        text.append(table("[body]", values["body"]))
+    for kind in ("foot", "limit"):
+        text += tables_by_name(kind, values.get(kind, {}))
+    return "\n".join(text)
+
+
 def document_of_scene(path: Path, before: Document, files: WorldFiles, own: bool) -> Document:
     """Return the document of a scene file; its meshes and its ground are known from then on.
 
@@ -77,7 +89,8 @@ def document_of_scene(path: Path, before: Document, files: WorldFiles, own: bool
     for i, one in enumerate(values.get("obstacle", [])):
         if one["shape"] == "mesh":
             split = {key: one[key] for key in SPLIT if key in one}
-            mesh = files.point_to(path.parent / one["file"], own)
+            name = posixpath.normpath(one["file"])
+            mesh = files.point_to(path.parent / name, name, own)
             files.know(mesh, split, scene.obstacles[i])
             document["obstacle"][i] |= {"file": mesh, **split}
     _take_creatures(document, scene)

@@ -22,6 +22,7 @@ MOST_FILES, MOST_BYTES = 512, 256 << 20  # of a zip, unpacked
 LARGEST_SCENE = 1 << 20  # bytes
 SCENE_KEYS = ("terrain", "obstacle", "scatter", "creature", "push")
 PLACE = "the scene"
+SCENE = "scene.toml"  # of a zip of ours
 
 
 class MissingFilesError(SceneError):
@@ -175,19 +176,10 @@ def _is_scene(file: Path) -> bool:
 
 
 def pack(scene: str, files: Mapping[str, bytes]) -> bytes:
-    """Return a zip of a scene and the files beside it, by their names.
-
-    Raises:
-        SceneError: it would be larger than the studio unpacks.
-    """
-    if sum(map(len, files.values())) > MOST_BYTES or len(files) >= MOST_FILES:
-        raise SceneError(
-            f"the world's files are more than {MOST_FILES}, or have more than {MOST_BYTES >> 20} "
-            "MiB, which is too much for a zip; keep them where they are"
-        )
+    """Return a zip of a scene and the files beside it, by their names."""
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("scene.toml", scene)
+        archive.writestr(SCENE, scene)
         for name, content in files.items():
             archive.writestr(name, content)
     return packed.getvalue()

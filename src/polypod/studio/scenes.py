@@ -20,7 +20,7 @@ from polypod.studio.asked import disks_of
 from polypod.studio.document import CREATURE, Document
 from polypod.studio.luggage import Luggage
 from polypod.studio.rigs_given import GivenRigs, clean_name
-from polypod.studio.saved import document_of_scene, scene_text
+from polypod.studio.saved import creature_text, document_of_scene, scene_text
 from polypod.studio.scene_folder import (
     PLACE,
     ZIP,
@@ -31,7 +31,6 @@ from polypod.studio.scene_folder import (
     parsed,
     unpack,
 )
-from polypod.studio.toml_text import table, tables_by_name
 from polypod.studio.world_files import WorldFiles
 
 
@@ -69,9 +68,7 @@ def document_of(
         told = str(error).replace(f"{folder}/", "").replace(str(folder), PLACE)
         raise type(error)(told) from None
     finally:
-        # A ground goes on being read from its files.
-        kept = document is not None and "given" in (document["terrain"] or {})
-        if not kept:
+        if document is None or not _reads_on(document, rigs, folder):
             shutil.rmtree(folder, ignore_errors=True)
     return document
 
@@ -107,6 +104,13 @@ def read_document(
 
     document = document_of_scene(path, before, files, own)
     return _cast(document, values, rigs, beside)
+
+
+def _reads_on(document: Document, rigs: GivenRigs, folder: Path) -> bool:
+    """Return whether a document's ground or a creature file of it is read from a folder later."""
+    holders = (document["creature"], *document["crowd"])
+    files = [Path(rigs.find(holder["rig"])) for holder in holders]
+    return "given" in (document["terrain"] or {}) or any(f.is_relative_to(folder) for f in files)
 
 
 def _cast(
@@ -169,20 +173,11 @@ def scene_zip(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
 
 def creature_toml(creature: Mapping[str, Any], rigs: GivenRigs) -> str:
     """Return a document's creature as a creature file, to lie beside its rig."""
-    top: dict[str, Any] = {"rig": rigs.name(creature["rig"])}
+    values: dict[str, Any] = {"rig": rigs.name(creature["rig"])}
     file = Path(rigs.find(creature["rig"]))
-    inner: dict[str, Any] = {}
     if file.suffix.lower() == ".toml":
         # It came from such a file, which says more than the document does.
-        top = tomllib.loads(file.read_text(encoding="utf-8"))
-        inner = {key: top.pop(key) for key in ("body", "foot", "limit") if key in top}
-    said = {key: creature[key] for key in CREATURE[1:] if creature[key] is not None}
-    if "limit" in said:
-        inner["limit"] = said.pop("limit")
-    top |= said
-    parts = [table("", top)]
-    if "body" in inner:
-        parts.append(table("[body]", inner["body"]))
-    for kind in ("foot", "limit"):
-        parts += tables_by_name(kind, inner.get(kind, {}))
-    return "\n".join(parts)
+        values = tomllib.loads(file.read_text(encoding="utf-8"))
+    return creature_text(
+        values | {key: creature[key] for key in CREATURE[1:] if creature[key] is not None}
+    )

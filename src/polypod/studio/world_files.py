@@ -124,8 +124,13 @@ class WorldFiles:
         size, parts = list(solid.size), len(solid.parts)
         return {"file": mesh, "name": title, "size": size, "parts": parts, **split}
 
-    def point_to(self, file: Path, own: bool) -> str:
-        """Return what a document calls a mesh of a scene; `own`: that scene's folder is to go.
+    def point_to(self, file: Path, name: str, own: bool) -> str:
+        """Return what a document calls a mesh of a scene.
+
+        Args:
+            file: the mesh.
+            name: how the scene calls it.
+            own: the scene's folder is to go.
 
         Raises:
             SceneError: it cannot be read.
@@ -138,7 +143,7 @@ class WorldFiles:
             kept = self.new_folder() / file.name
             kept.write_bytes(data)
             file = kept
-        return self._note(hashlib.sha256(data).hexdigest(), file, file.name, own)
+        return self._note(hashlib.sha256(data).hexdigest(), file, name, own)
 
     def know(self, mesh: str, split: Mapping[str, Any], solid: Obstacle) -> None:
         """Take over how a mesh was split when its scene was read."""

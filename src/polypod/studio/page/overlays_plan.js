@@ -4,7 +4,7 @@ import { Lines } from "/page/lines.js";
 import { DISC, Marks, RING, SQUARE } from "/page/marks.js";
 
 const LIFT = 0.004; // leg lengths: over the ground on which it lies
-const OUTLINE = 1.75; // of a candidate, for its size
+const OUTLINE = 1.6; // of a candidate, for its size
 const BEST = [0.18, 0.8, 0.35];
 const WORST = [0.16, 0.33, 0.88];
 
@@ -67,7 +67,7 @@ export class PlanOverlays {
   takeCandidates({ place, score, foot }) {
     const marks = this.candidates.clear();
     const lift = 2 * LIFT * this.leg;
-    const size = 0.03 * this.leg;
+    const size = 0.04 * this.leg;
     for (let i = 0; i < place.shape[0]; i++) {
       const [x, y, z] = place.data.subarray(3 * i, 3 * i + 3);
       marks.addHex(x, y + lift, z, OUTLINE * size, this.footColour(foot.data[i]), 1, RING);

@@ -37,7 +37,7 @@ function recording(store) {
   };
   store.on("tape", show);
   show();
-  const note = make("p", { class: "quiet" }, "A new record takes the place of the one before. Scrub it in the strip below.");
+  const note = make("p", { class: "quiet" }, "It goes on while you build the world, and holds all that stood meanwhile. A new one takes its place. Scrub it in the strip below.");
   return [make("div", { class: "row" }, button), words, note];
 }
 
@@ -113,7 +113,7 @@ function link(store) {
   store.on("document", () => { if (box.value !== linkFor(store.document)) box.hidden = true; });
   const note = make(
     "p", { class: "quiet" },
-    "It holds creature, gait, numbers and world, not the record. A rig of your own is known to this studio for as long as it runs; after that, drop its file on the page once more.",
+    "It holds creature, gait, numbers and world, not the record. A rig or a mesh of your own is known to this studio for as long as it runs; after that, drop a rig's file on the page once more.",
   );
   return [make("div", { class: "row" }, button), box, note];
 }

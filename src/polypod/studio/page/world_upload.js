@@ -108,13 +108,25 @@ export class WorldUpload {
   }
 
   async save() {
-    const name = namesFiles(this.store.wanted) ? "scene.zip" : "scene.toml";
+    const { store } = this;
     try {
-      const answer = await this.store.fetchSettled(`/export/${name}`);
-      saveAs(await answer.blob(), name);
+      if (!namesFiles(store.wanted)) return await this.take("scene.toml");
+      try {
+        return await this.take("scene.zip");
+      } catch (error) {
+        // What is too large for a zip lies where its scene was opened.
+        await this.take("scene.toml");
+        store.say(`${error.message}; saved is the scene alone, to lie where they are.`);
+      }
     } catch (error) {
-      this.store.say(error.message);
+      store.say(error.message);
     }
+    return undefined;
+  }
+
+  async take(name) {
+    const answer = await this.store.fetchSettled(`/export/${name}`);
+    saveAs(await answer.blob(), name);
   }
 }
 
