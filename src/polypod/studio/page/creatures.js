@@ -5,6 +5,7 @@ import { THREE } from "three";
 import { blendPose } from "/page/playback.js";
 import { decodeArrays } from "/page/frames.js";
 import { coarsened } from "/page/coarse.js";
+import { coverMesh, decodePictures } from "/page/pictures.js";
 import { dropMesh, herdMesh, poseTexture, showRows } from "/page/skinning.js";
 
 const FINE = 1200; // vertices: with fewer there is no coarser skin
@@ -20,7 +21,7 @@ export class Creatures {
     this.matrix = new THREE.Matrix4();
     this.ball = new THREE.Sphere();
     this.herds = [];
-    this.skins = new Map(); // N: promise of arrays
+    this.skins = new Map(); // N: promise of a skin, and of its pictures
     store.on("kinds", ({ kinds }) => this.rebuild(kinds));
   }
 
@@ -35,18 +36,30 @@ export class Creatures {
     const wanted = new Set(kinds.map(({ skin }) => skin));
     for (const n of this.skins.keys()) if (!wanted.has(n)) this.skins.delete(n);
     for (const herd of this.herds) {
-      this.skin(herd.skin)
-        .then((arrays) => { if (this.herds.includes(herd)) herd.dress(this.scene, arrays); })
-        .catch((problem) => this.store.say(`A creature's skin did not come: ${problem.message}.`));
+      this.dress(herd).catch((problem) => {
+        // One that is gone meanwhile, as when much is undone at once, is missed by nobody.
+        if (this.herds.includes(herd)) this.store.say(`A creature's skin did not come: ${problem.message}.`);
+      });
     }
   }
 
-  // The arrays of /skin/N, fetched once.
+  async dress(herd) {
+    const { skin, pictures } = await this.skin(herd.skin);
+    if (!this.herds.includes(herd)) return;
+    herd.dress(this.scene, skin.arrays);
+    const decoded = await pictures;
+    if (this.herds.includes(herd)) coverMesh(herd.fine, skin, decoded, herd.texture);
+  }
+
+  // What /skin/N says, fetched once, and its pictures, which are decoded meanwhile.
   skin(n) {
     if (!this.skins.has(n)) {
       const coming = this.store.fetch(`/skin/${n}`)
         .then((answer) => answer.arrayBuffer())
-        .then((bytes) => decodeArrays(bytes).arrays);
+        .then((bytes) => {
+          const skin = decodeArrays(bytes);
+          return { skin, pictures: decodePictures(skin) };
+        });
       coming.catch(() => this.skins.delete(n)); // asked for again the next time
       this.skins.set(n, coming);
     }

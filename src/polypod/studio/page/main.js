@@ -11,6 +11,7 @@ import { mountStrip } from "/page/strip.js";
 import { mountWorld } from "/page/world.js";
 import { Link } from "/page/link.js";
 import { bindKeys } from "/page/keys.js";
+import { Restart } from "/page/restart.js";
 import { Store } from "/page/store.js";
 import { mountTabs } from "/page/tabs.js";
 
@@ -30,6 +31,7 @@ mountTabs(document.querySelector("#tabs"), document.querySelector("#page"), [
 ]);
 mountStrip(document.querySelector("#strip"), store);
 bindKeys(store, scene);
+new Restart(document.querySelector("#scene"), store);
 
 const words = document.querySelector("#words");
 let timer = 0;

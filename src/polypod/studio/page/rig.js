@@ -4,7 +4,7 @@ import { addStyle, fillChoice, make, makeButton, makeChoice, makeSection, saveAs
 import { JointPicture } from "/page/joint_picture.js";
 import { JointTree } from "/page/joint_tree.js";
 import { LegEditor } from "/page/leg_editor.js";
-import { RigDraft, nameOfRig, rememberName } from "/page/rig_draft.js";
+import { RigDraft, forgetName, nameOfRig, rememberName, rigsRemembered } from "/page/rig_draft.js";
 import { limitTable } from "/page/rig_limits.js";
 import { RigSize } from "/page/rig_size.js";
 import { RigUpload } from "/page/rig_upload.js";
@@ -14,7 +14,7 @@ const BONE = "#5b6774";
 const SPINE = "#ffffff";
 // What of a command has a default of each creature's own.
 const OWN = ["speed", "step_height", "body_height", "period", "duty"];
-const GIANT = 6; // m; what is taller is rarely meant to be
+const GIANT = 20; // m; nothing that walked was as tall
 
 export function mountRig(element, store) {
   addStyle("panels.css");
@@ -130,7 +130,9 @@ class RigPanel {
       // Only the answer to the last question counts.
       if (asking === this.asking) this.take(found);
     } catch (error) {
-      if (asking === this.asking) this.fail(error.message);
+      if (asking !== this.asking) return;
+      if (this.store.connected) forgetName(this.draft.rig); // one that the studio has no more
+      this.fail(error.message);
     }
   }
 
@@ -159,7 +161,7 @@ class RigPanel {
   show() {
     const { draft, store } = this;
     if (!draft) return;
-    const kinds = [...new Set([...store.welcome.rigs, draft.rig])];
+    const kinds = [...new Set([...store.welcome.rigs, ...rigsRemembered(), draft.rig])];
     fillChoice(this.builtIn, kinds.map((rig) => [rig, nameOfRig(rig)]), draft.rig);
     const walking = sameCreature(store.document.creature, this.creatureOfDraft());
     this.walk.disabled = !draft.walks || walking;

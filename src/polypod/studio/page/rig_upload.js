@@ -8,7 +8,9 @@ export class RigUpload {
   // `taken` hears the server's answer.
   constructor(store, taken) {
     Object.assign(this, { store, taken });
-    this.file = make("input", { type: "file", accept: ".glb", hidden: true, "aria-label": "Rig file" });
+    store.rigs = this;
+    this.files = new Map(); // rig: the file that it was, while this page is open
+    this.file = make("input", { type: "file", accept: ".glb,.gltf", hidden: true, "aria-label": "Rig file" });
     this.file.addEventListener("change", () => {
       this.send(this.file.files[0]);
       this.file.value = ""; // the same file may be chosen again
@@ -51,13 +53,20 @@ export class RigUpload {
     this.bar.hidden = false;
     this.button.disabled = true;
     try {
-      this.taken(await this.post(file));
+      const answer = await this.post(file);
+      this.files.set(answer.rig, file);
+      this.taken(answer);
     } catch (error) {
       this.store.say(`${file.name}: ${error.message}`);
     } finally {
       this.bar.hidden = true;
       this.button.disabled = false;
     }
+  }
+
+  // Give the studio a rig once more that it was given by this page.
+  async sendAgain(rig) {
+    if (this.files.has(rig)) await this.post(this.files.get(rig));
   }
 
   // By XMLHttpRequest, for `fetch` tells nothing of how far an upload is.
@@ -84,7 +93,7 @@ export class RigUpload {
 }
 
 function refusal(file) {
-  if (!/\.glb$/i.test(file.name)) {
+  if (!/\.(glb|gltf)$/i.test(file.name)) {
     return `${file.name} is no GLB; export the rig as one file that ends in .glb.`;
   }
   const size = (file.size / 2 ** 20).toFixed(0);
