@@ -30,7 +30,7 @@ mountTabs(document.querySelector("#tabs"), document.querySelector("#page"), [
   ["Record", (element) => mountRecord(element, store, scene)],
 ]);
 mountStrip(document.querySelector("#strip"), store);
-bindKeys(store, scene);
+bindKeys(store, scene, document.querySelector("#bar"));
 new Restart(document.querySelector("#scene"), store);
 
 const words = document.querySelector("#words");

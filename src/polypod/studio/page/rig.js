@@ -15,6 +15,9 @@ const SPINE = "#ffffff";
 // What of a command has a default of each creature's own.
 const OWN = ["speed", "step_height", "body_height", "period", "duty"];
 const GIANT = 20; // m; nothing that walked was as tall
+// What is found of most rigs that lie on their back or nose.
+const ONE_LEGGED = " If it has more, add them under Legs. If it lies on its side in the pictures of"
+  + " its joints, export it anew with y up (+Y Up in Blender's export).";
 
 export function mountRig(element, store) {
   addStyle("panels.css");
@@ -148,7 +151,8 @@ class RigPanel {
       return;
     }
     const legs = this.draft.legs.length;
-    this.verdict.textContent = `It can walk: ${legs} leg${legs === 1 ? "" : "s"}, ${tall(answer.height)} tall.`;
+    this.verdict.textContent = `It can walk: ${legs} leg${legs === 1 ? "" : "s"}, ${tall(answer.height)} tall.`
+      + (legs === 1 ? ONE_LEGGED : "");
     this.verdict.className = "verdict good";
   }
 

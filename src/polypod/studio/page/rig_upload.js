@@ -57,7 +57,7 @@ export class RigUpload {
       this.files.set(answer.rig, file);
       this.taken(answer);
     } catch (error) {
-      this.store.say(`${file.name}: ${error.message}`);
+      this.store.say(error.message);
     } finally {
       this.bar.hidden = true;
       this.button.disabled = false;
@@ -84,9 +84,9 @@ export class RigUpload {
       };
       request.onload = () => {
         if (request.status === 200) resolve(request.response);
-        else reject(new Error(request.response?.why ?? `${request.status} ${request.statusText}`));
+        else reject(new Error(request.response?.why ?? `${file.name}: ${request.status} ${request.statusText}`));
       };
-      request.onerror = () => reject(new Error("the studio cannot be reached"));
+      request.onerror = () => reject(new Error(`${file.name} was not taken: the studio does not answer.`));
       request.send(file);
     });
   }
@@ -96,6 +96,7 @@ function refusal(file) {
   if (!/\.(glb|gltf)$/i.test(file.name)) {
     return `${file.name} is no GLB; export the rig as one file that ends in .glb.`;
   }
+  if (file.size === 0) return `${file.name} is empty.`;
   const size = (file.size / 2 ** 20).toFixed(0);
   return file.size > MOST ? `${file.name} has ${size} MiB; a rig may have 64.` : null;
 }

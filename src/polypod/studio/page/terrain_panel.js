@@ -64,7 +64,7 @@ export class TerrainPanel {
   }
 
   row(key) {
-    const words = key[0].toUpperCase() + key.slice(1).replaceAll("_", " ");
+    const words = key.replaceAll("_", " ");
     const row = make("div", { class: "key", role: "group", "aria-label": words });
     if (typeof this.standard[key] === "boolean") {
       const tick = makeTick(words, (on) => this.change(key, on));
