@@ -48,7 +48,7 @@ export class Link {
   // The studio may have been started anew meanwhile.
   async reopen() {
     try {
-      if (await renewToken()) this.store.tell("anew", true);
+      await renewToken();
     } catch { /* it is not there yet */ }
     this.open();
   }

@@ -3,23 +3,22 @@
 // studio shows, and offers to bring back what was here.
 
 import { make, makeButton } from "/page/elements.js";
+import { giveAgain } from "/page/given_files.js";
 
 const TOKEN = /name="polypod-token" content="([\w-]+)"/;
 
-// Take the token that the studio has now; resolves with whether it is another one. Rejects where
-// there is no studio.
+// Take the token that the studio has now. Rejects where there is no studio.
 export async function renewToken() {
   const answer = await fetch("/", { cache: "no-store" });
   const token = TOKEN.exec(await answer.text())?.[1];
   const meta = document.querySelector("meta[name=polypod-token]");
-  if (!answer.ok || !token || token === meta.content) return false;
-  meta.content = token;
-  return true;
+  if (answer.ok && token) meta.content = token;
 }
 
 export class Restart {
   constructor(element, store) {
     this.store = store;
+    this.token = store.token;
     this.before = null; // the document that the studio before it had
     this.words = make("p", {}, "The studio was started anew. What you had here is not in it.");
     this.back = makeButton("Bring it back", () => this.bringBack(), { class: "main" });
@@ -28,9 +27,16 @@ export class Restart {
       make("div", { class: "row" }, this.back, makeButton("Leave it", () => this.close())),
     );
     element.append(this.note);
-    store.on("anew", () => { this.before ??= store.document; });
+    store.on("link", (there) => { if (there) this.compare(); });
     store.on("document", ({ document: now }) => this.offer(now));
     store.on("role", () => this.refresh());
+  }
+
+  // A connection is there again: whether it is to the same studio.
+  compare() {
+    const { token, document } = this.store;
+    if (token !== this.token) this.before ??= document;
+    this.token = token;
   }
 
   offer(now) {
@@ -55,7 +61,7 @@ export class Restart {
     const { store, before } = this;
     this.back.disabled = true;
     try {
-      for (const { rig } of [before.creature, ...before.crowd]) await store.rigs.sendAgain(rig);
+      await giveAgain(store, before);
       await store.send({ do: "open", document: before });
       this.close();
       store.say("What you had here is back.", true);

@@ -1,6 +1,7 @@
 // A GLB from the user's disk, chosen or dropped anywhere on the page, sent with progress.
 
 import { make, makeButton } from "/page/elements.js";
+import { keepFile } from "/page/given_files.js";
 
 const MOST = 64 * 2 ** 20; // bytes
 
@@ -8,8 +9,6 @@ export class RigUpload {
   // `taken` hears the server's answer.
   constructor(store, taken) {
     Object.assign(this, { store, taken });
-    store.rigs = this;
-    this.files = new Map(); // rig: the file that it was, while this page is open
     this.file = make("input", { type: "file", accept: ".glb,.gltf", hidden: true, "aria-label": "Rig file" });
     this.file.addEventListener("change", () => {
       this.send(this.file.files[0]);
@@ -54,7 +53,7 @@ export class RigUpload {
     this.button.disabled = true;
     try {
       const answer = await this.post(file);
-      this.files.set(answer.rig, file);
+      keepFile(answer.rig, file);
       this.taken(answer);
     } catch (error) {
       this.store.say(error.message);
@@ -62,11 +61,6 @@ export class RigUpload {
       this.bar.hidden = true;
       this.button.disabled = false;
     }
-  }
-
-  // Give the studio a rig once more that it was given by this page.
-  async sendAgain(rig) {
-    if (this.files.has(rig)) await this.post(this.files.get(rig));
   }
 
   // By XMLHttpRequest, for `fetch` tells nothing of how far an upload is.

@@ -17,12 +17,11 @@ export class Store {
     this.frame = null; // as frames.js decodes it
     this.before = null; // the frame before it
     this.link = null; // see link.js
-    this.rigs = null; // see rig_upload.js
     this.listeners = new Map();
   }
 
   // Call `listener` whenever something of a kind comes: "document", "creature", "kinds", "clock",
-  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "anew", "words". Returns how to stop.
+  // "verdict", "tape", "welcome", "role", "frame", "arrays", "link", "words". Returns how to stop.
   on(kind, listener) {
     if (!this.listeners.has(kind)) this.listeners.set(kind, new Set());
     this.listeners.get(kind).add(listener);
