@@ -25,6 +25,7 @@ from chromium import FLAGS
 PICTURES = Path(__file__).parents[2] / "out" / "browser"
 CHROMIUM = Path(os.environ.get("POLYPOD_CHROMIUM", "/usr/bin/chromium"))
 START = 400.0  # s: kernels may have to be compiled
+READY = "Boolean(window.polypod?.document && polypod.creature && polypod.tape)"
 PATIENCE = 30.0  # s: a machine without a GPU draws a few frames a second
 
 
@@ -95,24 +96,6 @@ class Tab:
         return found.value.suggested_filename, Path(found.value.path()).read_bytes()
 
 
-@pytest.fixture(scope="session")
-def studio_address() -> Iterator[str]:
-    """Start the studio for all tests of the session, and return its address."""
-    pytest.importorskip("playwright", reason="the browser's driver is not installed")
-    pytest.importorskip("nicegui", reason='the studio needs pip install "polypod[studio]"')
-    if not CHROMIUM.is_file():
-        pytest.skip(f"there is no browser at {CHROMIUM}; set POLYPOD_CHROMIUM")
-    words = [sys.executable, "-m", "polypod", "studio", "--no-browser", "--port", "0"]
-    process = subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
-    )
-    try:
-        yield _address(process)
-    finally:
-        process.terminate()
-        process.wait(timeout=20)
-
-
 def _address(process: subprocess.Popen[str]) -> str:
     said = ""
     end = time.monotonic() + START
@@ -125,6 +108,61 @@ def _address(process: subprocess.Popen[str]) -> str:
         if time.monotonic() > end:
             break
     raise AssertionError(f"the studio did not start: {said}")
+
+
+class Studio:
+    """A studio in a process of its own, which may end and start again at its address."""
+
+    def __init__(self) -> None:
+        self.port = "0"
+        self.process: subprocess.Popen[str] | None = None
+
+    def start(self) -> str:
+        """Start it, and return its address."""
+        words = [sys.executable, "-m", "polypod", "studio", "--no-browser", "--port", self.port]
+        self.process = subprocess.Popen(
+            words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
+        )
+        address = _address(self.process)
+        self.port = address.rstrip("/").rsplit(":", 1)[1]
+        return address
+
+    def end(self) -> None:
+        if self.process is not None:
+            self.process.terminate()
+            self.process.wait(timeout=20)
+            self.process = None
+
+
+@pytest.fixture(scope="session")
+def studio_address() -> Iterator[str]:
+    """Start the studio for all tests of the session, and return its address."""
+    pytest.importorskip("playwright", reason="the browser's driver is not installed")
+    pytest.importorskip("nicegui", reason='the studio needs pip install "polypod[studio]"')
+    if not CHROMIUM.is_file():
+        pytest.skip(f"there is no browser at {CHROMIUM}; set POLYPOD_CHROMIUM")
+    studio = Studio()
+    try:
+        yield studio.start()
+    finally:
+        studio.end()
+
+
+@pytest.fixture
+def own_studio(browser: Any) -> Iterator[tuple[Studio, Tab]]:
+    """Return a studio of the test's own with a page of it; the page may fail to reach it."""
+    studio = Studio()
+    try:
+        address = studio.start()
+        context = browser.new_context(viewport={"width": 1280, "height": 720})
+        page = context.new_page()
+        page.goto(address)
+        tab = Tab(page)
+        tab.until(lambda: tab.ask(READY), "the page is there")
+        yield studio, tab
+        context.close()
+    finally:
+        studio.end()
 
 
 @pytest.fixture(scope="session")
@@ -155,8 +193,7 @@ def new_tab(browser: Any, studio_address: str) -> Iterator[Callable[..., Tab]]:
         page.on("request", lambda request: _judge(request.url, studio_address, faults))
         page.goto(address)
         tab = Tab(page)
-        ready = "Boolean(window.polypod?.document && polypod.creature && polypod.tape)"
-        tab.until(lambda: tab.ask(ready), "the page is there")
+        tab.until(lambda: tab.ask(READY), "the page is there")
         return tab
 
     yield open_tab

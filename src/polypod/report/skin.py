@@ -13,6 +13,7 @@ from polypod.report.record import Recording
 
 if TYPE_CHECKING:
     from polypod.morphology.types import Morphology
+    from polypod.rigs.colours import Paint
     from polypod.rigs.gltf import MeshPart
 
 IntArray = NDArray[np.int64]
@@ -31,6 +32,8 @@ class Flesh:
     weight: FloatArray  # [V, W]
     triangles: IntArray  # [T, 3]
     colour: FloatArray  # [V, 3] sRGB
+    normal: FloatArray | None  # [V, 3] unit, body frame at rest; None: the file has none
+    paint: Paint | None  # the picture that covers it
 
 
 def flesh_of(morphology: Morphology) -> list[Flesh]:
@@ -72,8 +75,18 @@ def _skinned(morphology: Morphology, part: MeshPart, row_of_node: dict[int, int]
     rows = np.array([row_of_node[int(node)] for node in skin.joints], np.int64)
     bind = source.body_from_file @ source.joint_rest_file[rows] @ skin.inverse_bind
     place = np.einsum("vwab,vb->vwa", bind[part.joints], _homogeneous(part.positions))
+    normal = None
+    if part.normals is not None:
+        turn = _for_normals(bind[:, :3, :3])[part.joints]
+        normal = _unit(np.einsum("vw,vwab,vb->va", part.weights, turn, part.normals))
     return Flesh(
-        place[..., :3], rows[part.joints], part.weights, part.triangles, part.vertex_colour
+        place=place[..., :3],
+        row=rows[part.joints],
+        weight=part.weights,
+        triangles=part.triangles,
+        colour=part.vertex_colour,
+        normal=normal,
+        paint=part.paint,
     )
 
 
@@ -92,14 +105,34 @@ def _carried(morphology: Morphology, part: MeshPart, row_of_node: dict[int, int]
         row = row_of_node[node]
         to_file = source.joint_rest_file[row] @ np.linalg.solve(node_world[node], to_file)
     count = len(part.positions)
-    place = _homogeneous(part.positions) @ (source.body_from_file @ to_file).T
+    to_body = source.body_from_file @ to_file
+    place = _homogeneous(part.positions) @ to_body.T
+    normal = None
+    if part.normals is not None:
+        normal = _unit(part.normals @ _for_normals(to_body[None, :3, :3])[0].T)
     return Flesh(
-        place[:, None, :3],
-        np.full((count, 1), row, np.int64),
-        np.ones((count, 1)),
-        part.triangles,
-        part.vertex_colour,
+        place=place[:, None, :3],
+        row=np.full((count, 1), row, np.int64),
+        weight=np.ones((count, 1)),
+        triangles=part.triangles,
+        colour=part.vertex_colour,
+        normal=normal,
+        paint=part.paint,
     )
+
+
+def _for_normals(matrix: FloatArray) -> FloatArray:
+    """Return [N, 3, 3] what turns normals where [N, 3, 3] turns places: its cofactors.
+
+    They are the inverse's transpose times the determinant, and are there where that is 0.
+    """
+    rows = [np.cross(matrix[:, (i + 1) % 3], matrix[:, (i + 2) % 3]) for i in range(3)]
+    return np.stack(rows, axis=1)
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    size = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.where(size > 0.0, vectors / np.where(size > 0.0, size, 1.0), [0.0, 1.0, 0.0])
 
 
 def _homogeneous(points: FloatArray) -> FloatArray:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from polypod.errors import RigError
 from polypod.rigs import container
 from polypod.rigs.accessors import AccessorReader
-from polypod.rigs.colours import ColourReader
+from polypod.rigs.colours import ColourReader, Paint, image_bytes
 from polypod.rigs.fields import Place
 from polypod.rigs.meshes import MeshPart, Skin, place_geometry, read_geometry, read_skins
 from polypod.rigs.nodes import FloatArray, IntArray, local_matrix, read_parents, world_matrices
@@ -138,19 +138,39 @@ class GltfDocument:
     @cached_property
     def _mesh_parts(self) -> tuple[MeshPart, ...]:
         colours = ColourReader(self.root, self._reader, self.folder)
-        found: dict[int, FloatArray] = {}
+        found: dict[int, tuple[FloatArray, Paint | None]] = {}
         parts = []
         for node, skin, part in self._shown:
             if id(part) not in found:
-                found[id(part)] = colours.vertex_colour(part)
-            colour = found[id(part)]
-            mean = colour.mean(axis=0) if len(colour) else np.ones(3)
+                found[id(part)] = (colours.vertex_colour(part), colours.paint(part))
+            colour, paint = found[id(part)]
             width = part.joints.shape[1] if skin >= 0 else 0
-            joints, weights = part.joints[:, :width], part.weights[:, :width]
             parts.append(
-                MeshPart(node, skin, part.positions, part.triangles, joints, weights, mean, colour)
+                MeshPart(
+                    node=node,
+                    skin=skin,
+                    positions=part.positions,
+                    normals=part.normals,
+                    triangles=part.triangles,
+                    joints=part.joints[:, :width],
+                    weights=part.weights[:, :width],
+                    colour=colour.mean(axis=0) if len(colour) else np.ones(3),
+                    vertex_colour=colour,
+                    paint=paint,
+                )
             )
         return tuple(parts)
+
+    def image(self, index: int) -> bytes:
+        """Return the bytes of an image, in whatever format it is.
+
+        Raises:
+            RigError: there is no such image, or it lies in a file that is not there.
+        """
+        places = self.root.parts("images")
+        if not 0 <= index < len(places):
+            raise self.root.error(f"has no number {index}: there are {len(places)}", "images")
+        return image_bytes(places[index], self._reader, self.folder)
 
     def _judge(self) -> None:
         """Read all that a rig needs, once, so that what is wrong is said here."""

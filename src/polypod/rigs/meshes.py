@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 from polypod.rigs.accessors import AccessorReader
 from polypod.rigs.fields import Place
 
+if TYPE_CHECKING:
+    from polypod.rigs.colours import Paint
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-# Positions [V, 3], joints [V, W] and weights [V, W] of a primitive.
-Vertices: TypeAlias = tuple[FloatArray, IntArray, FloatArray]
+# Positions [V, 3], normals [V, 3] or None, joints [V, W] and weights [V, W] of a primitive.
+Vertices: TypeAlias = tuple[FloatArray, FloatArray | None, IntArray, FloatArray]
 
 TRIANGLES = 4
 
@@ -34,6 +37,7 @@ class Geometry:
     """One primitive of triangles in mesh space; V vertices, T triangles, W weights a vertex."""
 
     positions: FloatArray  # [V, 3]
+    normals: FloatArray | None  # [V, 3] as the file has them; None: it has none
     triangles: IntArray  # [T, 3]
     joints: IntArray  # [V, W] places in the joint list of the skin that the node names
     weights: FloatArray  # [V, W] each row sums to one; W is 0 where nothing is skinned
@@ -50,11 +54,13 @@ class MeshPart:
     node: int  # the node that shows it
     skin: int  # index of the skin that deforms it, -1: it rides rigidly on its node
     positions: FloatArray  # [V, 3] mesh space
+    normals: FloatArray | None  # [V, 3] mesh space, as the file has them; None: it has none
     triangles: IntArray  # [T, 3]
     joints: IntArray  # [V, W] places in the skin's joint list
     weights: FloatArray  # [V, W] each row sums to one; W is 0 where skin is -1
     colour: FloatArray  # [3] mean colour
     vertex_colour: FloatArray  # [V, 3]
+    paint: Paint | None  # the picture that covers it
 
 
 def read_skins(root: Place, reader: AccessorReader) -> tuple[Skin, ...]:
@@ -135,9 +141,23 @@ def _read_primitive(
             raise attributes.error("must have type VEC3", "POSITION")
         positions = positions.astype(np.float64)
         _refuse_not_finite(attributes, positions, "POSITION")
-        vertices[key] = (positions, *_read_weights(attributes, reader, len(positions)))
-    positions, joints, weights = vertices[key]
-    return Geometry(positions, _read_triangles(place, reader, positions), joints, weights, place)
+        normals = _read_normals(attributes, reader, len(positions))
+        vertices[key] = (positions, normals, *_read_weights(attributes, reader, len(positions)))
+    positions, normals, joints, weights = vertices[key]
+    triangles = _read_triangles(place, reader, positions)
+    return Geometry(positions, normals, triangles, joints, weights, place)
+
+
+def _read_normals(
+    attributes: Place, reader: AccessorReader, vertex_count: int
+) -> FloatArray | None:
+    """Return [V, 3], None where there are none that could be used: they are for looks alone."""
+    accessor = attributes.reference("NORMAL", len(reader.accessors))
+    if accessor < 0:
+        return None
+    normals = reader.read(accessor)
+    usable = normals.shape == (vertex_count, 3) and normals.dtype == np.float64
+    return normals if usable and np.isfinite(normals).all() else None
 
 
 def _read_triangles(place: Place, reader: AccessorReader, positions: FloatArray) -> IntArray:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +15,7 @@ from polypod.report.ground import terrain_height
 from polypod.report.scenery import EARTH, STONE, WATER, obstacle_surface, wet_at
 from polypod.report.skin import Flesh, flesh_of
 from polypod.studio.arrays import pack_arrays
+from polypod.studio.pictures import cover
 
 IntArray = NDArray[np.int64]
 
@@ -27,15 +30,16 @@ def pack_skin(morphology: Morphology) -> bytes:
 
     A vertex has four joints; the body itself is the one after the last.
     """
-    surfaces = flesh_of(morphology)
+    surfaces = [_wound(surface) for surface in flesh_of(morphology)]
     body = len(morphology.joint_node)
     places, normals, joints, weights, colours, triangles = [], [], [], [], [], []
     begun = 0
     for surface in surfaces:
         joint, weight = _strongest(surface, body)
-        place = np.einsum("vw,vwa->va", surface.weight, surface.place)
+        place = _place(surface)
         places.append(place)
-        normals.append(normals_of(place, surface.triangles))
+        smooth = surface.normal
+        normals.append(normals_of(place, surface.triangles) if smooth is None else smooth)
         joints.append(joint)
         weights.append(weight)
         colours.append(surface.colour)
@@ -45,6 +49,9 @@ def pack_skin(morphology: Morphology) -> bytes:
         places, normals = [np.zeros((0, 3))], [np.zeros((0, 3))]
         joints, weights = [np.zeros((0, INFLUENCES), np.int64)], [np.zeros((0, INFLUENCES))]
         colours, triangles = [np.zeros((0, 3))], [np.zeros((0, 3), np.int64)]
+    covering, parts = cover(morphology.source.document, surfaces)
+    if covering:
+        covering["tint"] = as_bytes(covering["tint"])
     return pack_arrays(
         "skin",
         {
@@ -54,9 +61,34 @@ def pack_skin(morphology: Morphology) -> bytes:
             "weight": np.concatenate(weights).astype(np.float32),
             "colour": as_bytes(np.concatenate(colours)),
             "triangles": np.concatenate(triangles).astype(np.uint32),
+            **covering,
         },
         joints=body + 1,
+        parts=parts,
     )
+
+
+def _place(surface: Flesh) -> FloatArray:
+    """Return [V, 3] where vertices are at rest, body frame, m."""
+    place: FloatArray = np.einsum("vw,vwa->va", surface.weight, surface.place)
+    return place
+
+
+def _wound(surface: Flesh) -> Flesh:
+    """Return a surface whose triangles face the way that its own normals do.
+
+    Those of a mirrored part, and of a file that is careless about it, are the other way round, and
+    what is lit by the way that triangles face would be dark.
+    """
+    if surface.normal is None:
+        return surface
+    corner = _place(surface)[surface.triangles]
+    face = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    ahead = surface.normal[surface.triangles].sum(axis=1)
+    turned = np.einsum("ta,ta->t", face, ahead) < 0.0
+    triangles = surface.triangles.copy()
+    triangles[turned] = triangles[turned][:, ::-1]
+    return replace(surface, triangles=triangles)
 
 
 def _strongest(surface: Flesh, body: int) -> tuple[IntArray, FloatArray]:

@@ -5,6 +5,7 @@ import { THREE } from "three";
 import { blendPose } from "/page/playback.js";
 import { decodeArrays } from "/page/frames.js";
 import { COARSE, coarsened, CRUDE } from "/page/coarse.js";
+import { coverMesh, decodePictures } from "/page/pictures.js";
 import { dropMesh, herdMesh, poseTexture, showRows } from "/page/skinning.js";
 
 const FINE = 300; // vertices: with fewer there are no coarser skins
@@ -19,7 +20,7 @@ export class Creatures {
     this.ball = new THREE.Sphere();
     this.herds = [];
     this.small = [0, 0]; // pixels high, below which a creature has its coarse and its crude skin
-    this.skins = new Map(); // N: promise of arrays
+    this.skins = new Map(); // N: promise of a skin, and of its pictures
     store.on("kinds", ({ kinds }) => this.rebuild(kinds));
   }
 
@@ -34,22 +35,33 @@ export class Creatures {
     const wanted = new Set(kinds.map(({ skin }) => skin));
     for (const n of this.skins.keys()) if (!wanted.has(n)) this.skins.delete(n);
     for (const herd of this.herds) {
-      this.skin(herd.skin)
-        .then((arrays) => {
-          if (!this.herds.includes(herd)) return;
-          herd.dress(this.scene, arrays);
-          this.store.tell("skin", herd.skin);
-        })
-        .catch((problem) => this.store.say(`A creature's skin did not come: ${problem.message}.`));
+      this.dress(herd).catch((problem) => {
+        // One that is gone meanwhile, as when much is undone at once, is missed by nobody.
+        if (this.herds.includes(herd)) this.store.say(`A creature's skin did not come: ${problem.message}.`);
+      });
     }
   }
 
-  // The arrays of /skin/N, fetched once.
+  async dress(herd) {
+    const { skin, pictures } = await this.skin(herd.skin);
+    if (!this.herds.includes(herd)) return;
+    herd.dress(this.scene, skin.arrays);
+    this.store.tell("skin", herd.skin);
+    const decoded = await pictures;
+    if (!this.herds.includes(herd)) return;
+    coverMesh(herd.skins[0], skin, decoded, herd.texture);
+    this.store.tell("skin", herd.skin);
+  }
+
+  // What /skin/N says, fetched once, and its pictures, which are decoded meanwhile.
   skin(n) {
     if (!this.skins.has(n)) {
       const coming = this.store.fetch(`/skin/${n}`)
         .then((answer) => answer.arrayBuffer())
-        .then((bytes) => decodeArrays(bytes).arrays);
+        .then((bytes) => {
+          const skin = decodeArrays(bytes);
+          return { skin, pictures: decodePictures(skin) };
+        });
       coming.catch(() => this.skins.delete(n)); // asked for again the next time
       this.skins.set(n, coming);
     }

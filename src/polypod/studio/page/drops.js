@@ -4,7 +4,8 @@
 import { make } from "/page/elements.js";
 
 const SCENE = /\.(toml|zip)$/i;
-const MESH = /\.(obj|gltf)$/i;
+const MESH = /\.obj$/i;
+const EITHER = /\.(glb|gltf)$/i;
 const BINARY = /\.glb$/i;
 const HEAD = 20; // bytes of a GLB before its JSON
 
@@ -46,22 +47,28 @@ export class Drops {
     for (const file of files) (await this.isMesh(file) ? meshes : others).push(file);
     if (meshes.length) await this.world.addMeshes(meshes, place);
     if (others.length) this.store.tell("rigfile", others[0]);
+    if (others.length > 1) this.store.say(`Of these ${others.length} rigs ${others[0].name} was taken; drop them one by one.`);
   }
 
-  // A GLB without a skin can be no creature; one with a skin is, unless the world is being built.
+  // A glTF without a skin can be no creature; one with a skin is, wherever it is dropped.
   async isMesh(file) {
     if (MESH.test(file.name)) return true;
-    if (!BINARY.test(file.name)) return false;
-    return this.world.shown || !await hasSkin(file);
+    if (!EITHER.test(file.name)) return false;
+    return !await hasSkin(file);
   }
 }
 
 async function hasSkin(file) {
   try {
-    const length = new DataView(await file.slice(0, HEAD).arrayBuffer()).getUint32(12, true);
-    const content = JSON.parse(await file.slice(HEAD, HEAD + length).text());
-    return (content.skins ?? []).length > 0;
+    const text = BINARY.test(file.name) ? await jsonOf(file) : await file.text();
+    return (JSON.parse(text).skins ?? []).length > 0;
   } catch {
     return true; // broken: who reads rigs says how
   }
+}
+
+// The JSON of a GLB, as text.
+async function jsonOf(file) {
+  const length = new DataView(await file.slice(0, HEAD).arrayBuffer()).getUint32(12, true);
+  return file.slice(HEAD, HEAD + length).text();
 }

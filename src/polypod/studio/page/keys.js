@@ -27,10 +27,12 @@ const HELP = [
   ["?", "this list"],
 ];
 
-export function bindKeys(store, scene) {
+// `bar`: where the button is that shows the list.
+export function bindKeys(store, scene, bar) {
   addStyle("panels.css");
   const dialog = helpDialog();
   document.body.append(dialog);
+  bar.append(makeButton("?", () => dialog.showModal(), { "aria-label": "Keys", title: "Keys (?)" }));
   const pointed = watchPointer();
   const gesture = new Gesture(store);
   const order = (message) => store.send(message).catch((refusal) => store.say(refusal.message));

@@ -1,6 +1,7 @@
 // The websocket: orders out, messages and frames in. A lost connection is taken up again.
 
 import { decodeArrays, decodeFrame } from "/page/frames.js";
+import { renewToken } from "/page/restart.js";
 
 const FIRST_WAIT = 300; // ms before it tries again, and twice as long each time
 const LONGEST_WAIT = 5000;
@@ -40,8 +41,16 @@ export class Link {
     this.store.tell("link", false);
     for (const [, answer] of this.waiting) answer.reject(new Error("the connection was lost"));
     this.waiting.clear();
-    setTimeout(() => this.open(), this.wait);
+    setTimeout(() => this.reopen(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
+  }
+
+  // The studio may have been started anew meanwhile.
+  async reopen() {
+    try {
+      await renewToken();
+    } catch { /* it is not there yet */ }
+    this.open();
   }
 
   send(order) {

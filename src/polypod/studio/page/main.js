@@ -11,6 +11,7 @@ import { mountStrip } from "/page/strip.js";
 import { mountWorld } from "/page/world.js";
 import { Link } from "/page/link.js";
 import { bindKeys } from "/page/keys.js";
+import { Restart } from "/page/restart.js";
 import { Store } from "/page/store.js";
 import { mountTabs } from "/page/tabs.js";
 
@@ -29,7 +30,8 @@ mountTabs(document.querySelector("#tabs"), document.querySelector("#page"), [
   ["Record", (element) => mountRecord(element, store, scene)],
 ]);
 mountStrip(document.querySelector("#strip"), store);
-bindKeys(store, scene);
+bindKeys(store, scene, document.querySelector("#bar"));
+new Restart(document.querySelector("#scene"), store);
 
 const words = document.querySelector("#words");
 let timer = 0;

@@ -4,7 +4,7 @@ import { addStyle, fillChoice, make, makeButton, makeChoice, makeSection, saveAs
 import { JointPicture } from "/page/joint_picture.js";
 import { JointTree } from "/page/joint_tree.js";
 import { LegEditor } from "/page/leg_editor.js";
-import { RigDraft, nameOfRig, rememberName } from "/page/rig_draft.js";
+import { RigDraft, forgetName, nameOfRig, rememberName, rigsRemembered } from "/page/rig_draft.js";
 import { LimitPanel } from "/page/rig_limits.js";
 import { RigSize } from "/page/rig_size.js";
 import { RigUpload } from "/page/rig_upload.js";
@@ -15,7 +15,10 @@ const SPINE = "#ffffff";
 // What of a command has a default of each creature's own.
 const OWN = ["speed", "step_height", "body_height", "period", "duty"];
 const UNLIMITED = "Its joints turn as far as found again: it has other legs or another spine.";
-const GIANT = 6; // m; what is taller is rarely meant to be
+const GIANT = 20; // m; nothing that walked was as tall
+// What is found of most rigs that lie on their back or nose.
+const ONE_LEGGED = " If it has more, add them under Legs. If it lies on its side in the pictures of"
+  + " its joints, export it anew with y up (+Y Up in Blender's export).";
 
 export function mountRig(element, store) {
   addStyle("panels.css");
@@ -137,7 +140,9 @@ class RigPanel {
       // Only the answer to the last question counts.
       if (asking === this.asking) this.take(found);
     } catch (error) {
-      if (asking === this.asking) this.fail(error.message);
+      if (asking !== this.asking) return;
+      if (this.store.connected) forgetName(this.draft.rig); // one that the studio has no more
+      this.fail(error.message);
     }
   }
 
@@ -153,7 +158,8 @@ class RigPanel {
       return;
     }
     const legs = this.draft.legs.length;
-    this.verdict.textContent = `It can walk: ${legs} leg${legs === 1 ? "" : "s"}, ${tall(answer.height)} tall.`;
+    this.verdict.textContent = `It can walk: ${legs} leg${legs === 1 ? "" : "s"}, ${tall(answer.height)} tall.`
+      + (legs === 1 ? ONE_LEGGED : "");
     this.verdict.className = "verdict good";
   }
 
@@ -166,7 +172,7 @@ class RigPanel {
   show() {
     const { draft, store } = this;
     if (!draft) return;
-    const kinds = [...new Set([...store.welcome.rigs, draft.rig])];
+    const kinds = [...new Set([...store.welcome.rigs, ...rigsRemembered(), draft.rig])];
     fillChoice(this.builtIn, kinds.map((rig) => [rig, nameOfRig(rig)]), draft.rig);
     const walking = sameCreature(store.document.creature, this.creatureOfDraft());
     this.walk.disabled = !draft.walks || walking;

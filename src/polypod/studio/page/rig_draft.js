@@ -103,11 +103,25 @@ export function axes(forward) {
 
 // Names of uploads are for show alone: the server knows them by what is in them.
 export function rememberName(rig, name) {
-  const names = JSON.parse(sessionStorage.getItem(NAMED) ?? "{}");
-  sessionStorage.setItem(NAMED, JSON.stringify({ ...names, [rig]: name }));
+  sessionStorage.setItem(NAMED, JSON.stringify({ ...namesOfRigs(), [rig]: name }));
+}
+
+export function forgetName(rig) {
+  const names = namesOfRigs();
+  delete names[rig];
+  sessionStorage.setItem(NAMED, JSON.stringify(names));
+}
+
+// The uploads that were looked at in this tab: they can be chosen again.
+export function rigsRemembered() {
+  return Object.keys(namesOfRigs()).filter((rig) => rig.startsWith("upload:"));
 }
 
 export function nameOfRig(rig) {
   if (!rig.startsWith("upload:")) return rig;
-  return JSON.parse(sessionStorage.getItem(NAMED) ?? "{}")[rig] ?? `upload ${rig.slice(7, 13)}`;
+  return namesOfRigs()[rig] ?? `upload ${rig.slice(7, 13)}`;
+}
+
+function namesOfRigs() {
+  return JSON.parse(sessionStorage.getItem(NAMED) ?? "{}");
 }

@@ -1,6 +1,7 @@
 // A rig from the user's disk, chosen or dropped anywhere on the page, sent with progress.
 
 import { make, makeButton } from "/page/elements.js";
+import { keepFile } from "/page/given_files.js";
 import { sendFile } from "/page/upload.js";
 
 const MOST = 64 * 2 ** 20; // bytes
@@ -9,7 +10,7 @@ export class RigUpload {
   // `taken` hears the server's answer.
   constructor(store, taken) {
     Object.assign(this, { store, taken });
-    this.file = make("input", { type: "file", accept: ".glb", hidden: true, "aria-label": "Rig file" });
+    this.file = make("input", { type: "file", accept: ".glb,.gltf", hidden: true, "aria-label": "Rig file" });
     this.file.addEventListener("change", () => {
       this.send(this.file.files[0]);
       this.file.value = ""; // the same file may be chosen again
@@ -29,9 +30,11 @@ export class RigUpload {
     }
     this.button.disabled = true;
     try {
-      this.taken(await sendFile(this.store, "/rig", file, this.bar));
+      const answer = await sendFile(this.store, "/rig", file, this.bar);
+      keepFile(answer.rig, file);
+      this.taken(answer);
     } catch (error) {
-      this.store.say(`${file.name}: ${error.message}`);
+      this.store.say(error.message);
     } finally {
       this.button.disabled = false;
     }
@@ -39,9 +42,10 @@ export class RigUpload {
 }
 
 function refusal(file) {
-  if (!/\.glb$/i.test(file.name)) {
-    return `${file.name} is no GLB; export a rig as one file that ends in .glb.`;
+  if (!/\.(glb|gltf)$/i.test(file.name)) {
+    return `${file.name} is no GLB; export the rig as one file that ends in .glb.`;
   }
+  if (file.size === 0) return `${file.name} is empty.`;
   const size = (file.size / 2 ** 20).toFixed(0);
   return file.size > MOST ? `${file.name} has ${size} MiB; a rig may have 64.` : null;
 }

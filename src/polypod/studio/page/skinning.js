@@ -36,7 +36,8 @@ vec3 posedNormal(vec3 n) {
 }
 #include <common>`;
 
-function skin(material, poses) {
+// A material that draws what is posed as a row of `poses` says.
+export function skinned(material, poses) {
   material.onBeforeCompile = (shader) => {
     shader.uniforms.poses = { value: poses };
     shader.vertexShader = shader.vertexShader
@@ -72,9 +73,9 @@ export function herdMesh(arrays, texture, count) {
   geometry.setIndex(new THREE.BufferAttribute(triangles.data, 1));
   // Thin parts are often modelled from one side only, so both are shown.
   const look = { vertexColors: true, roughness: 0.75, metalness: 0, side: THREE.DoubleSide };
-  const mesh = new THREE.Mesh(geometry, skin(new THREE.MeshStandardMaterial(look), texture));
+  const mesh = new THREE.Mesh(geometry, skinned(new THREE.MeshStandardMaterial(look), texture));
   const depth = new THREE.MeshDepthMaterial({ depthPacking: THREE.RGBADepthPacking });
-  mesh.customDepthMaterial = skin(depth, texture);
+  mesh.customDepthMaterial = skinned(depth, texture);
   // Where it is only the shader knows.
   mesh.frustumCulled = false;
   mesh.castShadow = true;
@@ -92,7 +93,10 @@ export function showRows(mesh, count) {
 export function dropMesh(scene, mesh) {
   scene.remove(mesh);
   mesh.geometry.dispose();
-  mesh.material.dispose();
+  for (const material of [mesh.material].flat()) {
+    material.map?.dispose();
+    material.dispose();
+  }
   mesh.customDepthMaterial.dispose();
 }
 

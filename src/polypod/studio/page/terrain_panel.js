@@ -30,6 +30,7 @@ export class TerrainPanel {
       "div", {}, make("div", { class: "row" }, this.choice, this.apply), this.keys,
     );
     this.boxes = [];
+    this.resets = new Map(); // of keys, the buttons that go back to their defaults
   }
 
   refresh() {
@@ -61,6 +62,7 @@ export class TerrainPanel {
     this.standard = this.store.welcome.generators[generator] ?? {};
     this.values = { ...this.standard, ...values };
     this.boxes = [];
+    this.resets = new Map();
     this.keys.replaceChildren(...Object.keys(this.standard).map((key) => this.row(key)));
     this.mark();
   }
@@ -85,6 +87,7 @@ export class TerrainPanel {
       class: "reset", title: `Default: ${box.spoken(standard)}`,
       "aria-label": `${words}: back to default, ${box.spoken(standard)}`,
     });
+    this.resets.set(key, reset);
     row.append(make("span", {}, words), box.element, reset);
     if (key === "seed") {
       row.append(makeButton("Another", () => {
@@ -107,9 +110,17 @@ export class TerrainPanel {
     return { generator: this.generator, ...this.values };
   }
 
-  send() {
+  // Grounds lie about the place where walks begin: of stairs, rocks or a slope nothing would be seen
+  // from where the creature has got to meanwhile.
+  async send() {
+    const { store } = this;
+    const before = store.document.terrain?.generator;
     this.taken = JSON.stringify(this.wanted());
-    return this.store.edit(["terrain"], this.wanted());
+    await store.edit(["terrain"], this.wanted());
+    const now = store.document.terrain?.generator;
+    // What is recorded goes on; and flat ground is the same everywhere.
+    if (!now || now === before || store.tape.recording) return;
+    await store.send({ do: "restart" }).catch((refusal) => store.say(refusal.message));
   }
 
   // The button says whether there is anything to make.
@@ -118,6 +129,7 @@ export class TerrainPanel {
     const full = there && { ...this.store.welcome.generators[there.generator], ...there };
     this.apply.disabled = same(full, this.wanted());
     for (const box of this.boxes) box.refresh();
+    for (const [key, reset] of this.resets) reset.disabled = this.values[key] === this.standard[key];
   }
 }
 

@@ -29,7 +29,7 @@ function post(store, route, file, bar) {
       if (request.status === 200) resolve(request.response);
       else reject(refusal(request));
     };
-    request.onerror = () => reject(new Error("the studio cannot be reached"));
+    request.onerror = () => reject(new Error("the studio does not answer"));
     request.send(file);
   });
 }
