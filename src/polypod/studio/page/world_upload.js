@@ -33,11 +33,6 @@ export class WorldUpload {
     );
   }
 
-  // Whether the World panel is what the user looks at.
-  get shown() {
-    return this.element.offsetParent !== null;
-  }
-
   // Whether these are what a scene lacked.
   waitsFor(files) {
     return files.some(({ name }) => this.waiting?.wants.includes(name));
