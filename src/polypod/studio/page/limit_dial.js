@@ -8,6 +8,10 @@ const RADIUS = 40;
 const RIM = 47;
 const HALF = 60; // of the drawing
 const DEGREE = Math.PI / 180;
+// Small ranges are drawn larger: so many times, as long as the default one takes no more than this.
+const ZOOMS = [8, 4, 2, 1];
+const WIDEST = 65 * DEGREE;
+const FARTHEST = 175 * DEGREE; // on the dial; what lies beyond is in the boxes alone
 const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
 const ENDS = ["least", "most"];
 
@@ -27,6 +31,9 @@ export class LimitDial {
   constructor(editor, joint, turn, words, colour) {
     Object.assign(this, { editor, joint, turn, words });
     this.asked = null; // the range that is being dragged to
+    const size = Math.max(Math.abs(turn.default[0]), Math.abs(turn.default[1]));
+    this.zoom = ZOOMS.find((zoom) => zoom * size <= WIDEST) ?? 1;
+    this.snap = (this.zoom > 1 ? 0.5 : 1) * DEGREE;
     this.sector = makeSvg("path", { class: "limit-sector", fill: colour });
     this.usual = makeSvg("path", { class: "limit-usual" });
     this.needle = makeSvg("path", { class: "limit-needle", d: `M0 0L0 -${RADIUS + 3}`, visibility: "hidden" });
@@ -38,7 +45,7 @@ export class LimitDial {
     );
     this.picture = picture;
     this.now = make("span", { class: "limit-now" });
-    this.element = make("div", { class: "limit-dial" }, picture, make("div", { class: "quiet" }, words), this.now);
+    this.element = make("div", { class: "limit-dial" }, picture, make("div", { class: "quiet" }, this.zoom > 1 ? `${words}, drawn ×${this.zoom}` : words), this.now);
     for (const end of ENDS) this.bind(end);
     this.show(turn);
   }
@@ -54,15 +61,21 @@ export class LimitDial {
     }, makeSvg("circle", { class: "limit-touch", r: 13 }), shape);
   }
 
+  // Where an angle is on the dial, from the top on.
+  drawn(angle) {
+    if (this.zoom === 1) return angle;
+    return Math.min(Math.max(angle * this.zoom, -FARTHEST), FARTHEST);
+  }
+
   // Show what holds; while it is dragged the handles stay with the pointer.
   show(turn) {
     this.turn = turn;
     const [least, most] = this.asked ?? [turn.least, turn.most];
-    this.sector.setAttribute("d", `${arc(turn.least, turn.most, RADIUS)}L0 0Z`);
-    this.usual.setAttribute("d", arc(...turn.default, RADIUS + 2));
+    this.sector.setAttribute("d", `${arc(this.drawn(turn.least), this.drawn(turn.most), RADIUS)}L0 0Z`);
+    this.usual.setAttribute("d", arc(...turn.default.map((angle) => this.drawn(angle)), RADIUS + 2));
     for (const [end, angle] of [["least", least], ["most", most]]) {
       const handle = this.handles[end];
-      handle.setAttribute("transform", `translate(${at(angle, RIM)})`);
+      handle.setAttribute("transform", `translate(${at(this.drawn(angle), RIM)})`);
       handle.setAttribute("aria-valuenow", (angle / DEGREE).toFixed(1));
       handle.setAttribute("aria-valuetext", `${(angle / DEGREE).toFixed(1)} degrees`);
     }
@@ -72,7 +85,7 @@ export class LimitDial {
   showNow(angle) {
     this.needle.setAttribute("visibility", angle === null ? "hidden" : "visible");
     if (angle === null) return;
-    this.needle.setAttribute("transform", `rotate(${(angle / DEGREE).toFixed(1)})`);
+    this.needle.setAttribute("transform", `rotate(${(this.drawn(angle) / DEGREE).toFixed(1)})`);
     this.now.textContent = `now ${Math.round(angle / DEGREE)}°`.replace("-", "−");
   }
 
@@ -92,7 +105,7 @@ export class LimitDial {
       // Turns add up, so that a hand that goes round past the foot of the dial goes on.
       const angle = this.angleAt(event);
       const step = angle - drag.last;
-      drag.angle += step - 2 * Math.PI * Math.round(step / (2 * Math.PI));
+      drag.angle += (step - 2 * Math.PI * Math.round(step / (2 * Math.PI))) / this.zoom;
       drag.last = angle;
       this.move(end, drag.angle, event.altKey);
     });
@@ -108,8 +121,8 @@ export class LimitDial {
   }
 
   move(end, angle, free) {
-    const whole = free ? angle : Math.round(angle / DEGREE) * DEGREE;
-    this.asked = movedEnd(this.joint, this.turn, end, whole);
+    const snapped = free ? angle : Math.round(angle / this.snap) * this.snap;
+    this.asked = movedEnd(this.joint, this.turn, end, snapped);
     this.editor.limit(this.joint, this.turn.key, this.asked);
     this.show(this.turn);
   }
@@ -123,8 +136,8 @@ export class LimitDial {
       this.reset();
       return;
     }
-    const whole = Math.round(this.latest(end) / DEGREE) + step * (event.shiftKey ? 5 : 1);
-    this.stroked = movedEnd(this.joint, this.turn, end, whole * DEGREE);
+    const steps = Math.round(this.latest(end) / this.snap) + step * (event.shiftKey ? 5 : 1);
+    this.stroked = movedEnd(this.joint, this.turn, end, steps * this.snap);
     this.editor.stroke(this.joint, this.turn.key, end, this.stroked);
   }
 

@@ -12,7 +12,7 @@ const LIVE = 80; // ms between two looks at how a joint is turned
 const SPINE = "#d5dde5";
 const DEGREES = { unit: "°", factor: 180 / Math.PI, decimals: 1 };
 const UNKNOWN = "They are known of what walks; press Walk it first.";
-const HINT = "Drag an end of the arc; it snaps to degrees, not with Alt. Delete goes back to the default, the thin line.";
+const HINT = "Drag an end of the arc; it snaps, but not with Alt. Delete goes back to the default, the thin line.";
 
 export class LimitPanel {
   // `chosen` hears the node of the joint that is chosen, or null.
