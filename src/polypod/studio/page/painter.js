@@ -55,7 +55,7 @@ export class Painter {
     return this.pinned === "fast" ? FASTEST : this.quality.level;
   }
 
-  // Another scene: it may be easier to draw.
+  // Other creatures: they may be easier to draw.
   forget() {
     this.quality.forget();
   }

@@ -13,7 +13,7 @@ export const LEVELS = [
 export const BEST = 0;
 export const FASTEST = LEVELS.length - 1;
 
-const SLOW = 1000 / 28; // ms: pictures that come slower than this on average are too slow
+const SLOW = 1000 / 28; // ms: pictures that come slower than this are too slow
 const QUICK = 1000 / 45; // ms: with pictures that come as quickly there may be time to spare
 const JUDGED = 1000; // ms of pictures, and
 const FEWEST = 6; // of them, that a judgement is on
@@ -31,7 +31,7 @@ export class Quality {
     this.begin();
   }
 
-  // Another scene, so what was learnt of a finer level is no longer true.
+  // Something else is drawn, so what was learnt of a finer level is no longer true.
   forget() {
     this.wait = FIRST_WAIT;
     this.quickFor = 0;
@@ -45,7 +45,7 @@ export class Quality {
 
   clear() {
     this.spent = 0;
-    this.count = 0;
+    this.intervals = [];
   }
 
   // Take the time [ms] from one picture to the next, while every picture is wanted; returns the
@@ -60,12 +60,13 @@ export class Quality {
       return this.level;
     }
     this.spent += interval;
-    this.count += 1;
-    if (this.spent < JUDGED || this.count < FEWEST) return this.level;
+    this.intervals.push(interval);
+    if (this.spent < JUDGED || this.intervals.length < FEWEST) return this.level;
     this.tried += this.spent;
-    const mean = this.spent / this.count;
-    if (mean > SLOW) this.coarser();
-    else this.finer(mean);
+    // The middle one: a picture that is late once, as when a rig is read, is no slow machine.
+    const usual = this.intervals.sort((a, b) => a - b)[this.intervals.length >> 1];
+    if (usual > SLOW) this.coarser();
+    else this.finer(usual);
     this.clear();
     return this.level;
   }
@@ -79,8 +80,8 @@ export class Quality {
     this.begin();
   }
 
-  finer(mean) {
-    this.quickFor = mean < QUICK ? this.quickFor + this.spent : 0;
+  finer(usual) {
+    this.quickFor = usual < QUICK ? this.quickFor + this.spent : 0;
     if (this.quickFor < this.wait || this.level === BEST) return;
     this.level -= 1;
     this.tried = 0;

@@ -74,7 +74,7 @@ class Scene {
     this.canvas.addEventListener("pointermove", ({ buttons }) => { if (buttons) stir(); }, true);
     document.addEventListener("visibilitychange", stir);
     this.painter.onChange(stir);
-    this.store.on("kinds", () => this.painter.forget());
+    this.store.on("skin", () => this.painter.forget());
   }
 
   stir() {
