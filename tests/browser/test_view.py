@@ -244,6 +244,7 @@ def test_side_views_are_from_the_side_and_the_view_follows(tab: Any) -> None:
 
 
 def test_frame_shows_the_whole_creature(tab: Any) -> None:
+    tab.until(lambda: tab.ask("polypod.scene.drawn") > 2, "it is drawn")
     x, y = pixels(tab, centre(tab))
     tab.page.mouse.move(x, y)
     for _ in range(6):

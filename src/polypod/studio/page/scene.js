@@ -19,7 +19,6 @@ import { Tools } from "/page/tools.js";
 const PRINT = 2; // pixels of a picture that is kept, for one of the view's
 const SMALL = 0.5; // radii of the creature: what reaches no farther is as good as a point
 const SEEN = 0.8; // of the half picture: what is new is well within
-const TURNS = [0, 0.5, -0.5, 1, -1]; // rad off the creature's heading, where there is room for it
 const CALM = 500; // ms after the last stir for which pictures still are drawn: views glide on;
 const OWED = 2; // pictures at least, where these take longer
 // What may make the view look another while time stands: what the page is told ("skin" and "ground" it
@@ -230,7 +229,7 @@ class Scene {
   }
 
   // Where a new thing goes, [x, z]: on the ground in the view's middle, but not under the creature;
-  // or ahead of it, where that is in the picture. The thing reaches `around` [m] about it.
+  // or ahead of it. The thing reaches `around` [m] about it.
   placeAhead(around = 0) {
     const { centre, size } = this.cameras;
     const least = AHEAD * size + Math.max(around - SMALL * size, 0);
@@ -238,19 +237,18 @@ class Scene {
     const place = this.rays.groundPlace();
     const near = place ? Math.hypot(place.x - centre.x, place.z - centre.z) : Infinity;
     if (near > least && near < 20 * size) return [place.x, place.z];
-    for (const turn of TURNS) {
-      for (let far = 2; far >= 1; far -= 0.25) {
-        const [x, z] = this.ahead(far * least, turn);
-        if (this.sees([x, this.heightAt(x, z), z], SEEN)) return [x, z];
-      }
+    // In its way, and as near as it must be to be seen from where the view is.
+    for (let far = 2; far >= 1; far -= 0.25) {
+      const [x, z] = this.ahead(far * least);
+      if (this.sees([x, this.heightAt(x, z), z], SEEN)) return [x, z];
     }
-    return this.ahead(2 * least, 0);
+    return this.ahead(2 * least);
   }
 
-  // A place [x, z] so far off the creature, m, and so far off its heading, rad.
-  ahead(away, turn) {
+  // A place [x, z] so far ahead of the creature, m.
+  ahead(away) {
     const { centre, heading } = this.cameras;
-    return [centre.x + away * Math.sin(heading + turn), centre.z + away * Math.cos(heading + turn)];
+    return [centre.x + away * Math.sin(heading), centre.z + away * Math.cos(heading)];
   }
 
   // Where a place of the world is on the page, [x, y] in pixels.
