@@ -110,6 +110,19 @@ def test_nothing_is_drawn_while_nothing_stirs(tab: Any) -> None:
     tab.until(lambda: drawn(tab) > before + 10, "it is drawn while it walks")
 
 
+def test_what_stands_still_is_drawn_once_more_finely(tab: Any) -> None:
+    size = "(({ canvas: c, painter: p }) => [c.width, c.clientWidth, p.level])(polypod.scene)"
+    tab.ask("polypod.scene.painter.quality.level = 3")
+    tab.until(lambda: tab.ask(size)[2] == 3, "it is drawn coarsely")
+    width, place, _ = tab.ask(size)
+    assert width < 0.7 * place
+    stand(tab)
+    assert tab.ask(size)[:2] == [place, place]
+    tab.keep("picture-still")
+    tab.button("Play").click()
+    tab.until(lambda: tab.ask(size)[0] < 0.9 * place or tab.ask(size)[2] < 2, "it moves smoothly")
+
+
 def test_a_quality_is_pinned_and_remembered_and_what_is_kept_is_the_best(tab: Any) -> None:
     from PIL import Image
 

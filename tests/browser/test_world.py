@@ -137,8 +137,7 @@ def test_each_kind_of_obstacle_is_resized_by_hand_and_by_number(
     values = {**shape, "position": [here[0] + 0.5, 0.05, here[2] + 0.2], "yaw": 0.0}
     tab.ask(f"polypod.edit(['obstacle'], [{json.dumps(values)}])")
     tab.until(lambda: tab.document["obstacle"][0]["position"] == values["position"], "it is there")
-    drawn = tab.ask("polypod.scene.drawn")
-    tab.until(lambda: tab.ask("polypod.scene.drawn") > drawn + 2, "it is drawn")
+    tab.until_drawn()
     tab.ask("polypod.scene.select(0)")
     tab.page.wait_for_timeout(400)
     measured = "(() => { const h = polypod.scene.handles; h.measure(h.mesh);"

@@ -28,6 +28,7 @@ export class Painter {
     this.filming = false; // a video is made of the view
     this.drawn = 0; // pictures, for whoever measures
     this.last = 0; // ms, when the picture before was wanted; 0 where it was not
+    this.settled = false; // the picture is finer than its level, for nothing stirs
     const kept = localStorage.getItem(KEPT);
     this.pinned = kept in QUALITIES ? kept : "auto";
     this.use(this.wanted);
@@ -78,6 +79,31 @@ export class Painter {
     return pixels < 1 ? pixels : Math.min(devicePixelRatio, pixels);
   }
 
+  // Whether a finer picture could be drawn of what stands still.
+  get coarse() {
+    return this.pinned === "auto" && this.level !== BEST && !this.settled;
+  }
+
+  // Draw what stands still once more, with as many pixels and as fine creatures as can be; `prepare` is
+  // called before. Shadows and materials stay: to change them takes longer than a picture, and hands
+  // may come back any moment.
+  settle(camera, prepare) {
+    this.settled = true;
+    this.fit(Math.min(devicePixelRatio, LEVELS[BEST].pixels));
+    this.parts.creatures.small = LEVELS[BEST].small;
+    prepare();
+    this.renderer.render(this.scene, camera);
+    this.drawn += 1;
+  }
+
+  // Back to the level, before the next picture.
+  unsettle() {
+    if (!this.settled) return;
+    this.settled = false;
+    this.fit(this.pixels);
+    this.parts.creatures.small = LEVELS[this.level].small;
+  }
+
   // Go over to a level.
   use(level) {
     if (level === this.level) return;
@@ -122,6 +148,7 @@ export class Painter {
   // with the picture's height before it is drawn.
   picture(camera, pixels, prepare) {
     const { level } = this;
+    this.unsettle();
     this.use(BEST);
     this.fit(pixels);
     prepare(this.canvas.height);

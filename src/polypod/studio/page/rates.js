@@ -3,12 +3,13 @@
 import { make, makeButton } from "/page/elements.js";
 
 const EVERY = 1000; // ms
+const MEANING = "Share of real time that the simulation keeps; frames received and drawn a second";
 
 export class Rates {
   constructor(store, scene) {
     this.store = store;
     this.scene = scene;
-    this.words = make("span", { class: "numbers", title: "Share of real time that the simulation keeps; frames received and drawn a second; data received" });
+    this.words = make("span", { class: "numbers", title: MEANING });
     this.state = make("span", { class: "state", role: "status" });
     this.drive = makeButton("Drive from here", () => this.take(), {
       title: "Another tab drives; take over to change things", class: "drive",
@@ -38,7 +39,8 @@ export class Rates {
     Object.assign(before, { at: now, frames, received, drawn: scene.drawn });
     const { received: come, drawn, bytes } = store.rates;
     this.words.textContent = `${Math.round(100 * store.clock.behind)} % of real time · `
-      + `${come.toFixed(0)} received · ${drawn.toFixed(0)} drawn · ${size(bytes)}/s`;
+      + `${come.toFixed(0)} received · ${drawn.toFixed(0)} drawn`;
+    this.words.title = `${MEANING} (${size(bytes)} a second now)`;
   }
 
   refresh() {

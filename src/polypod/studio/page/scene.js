@@ -132,12 +132,14 @@ class Scene {
     this.tools.hover();
     if (!walks && this.owed <= 0 && now - this.stirred > CALM) {
       painter.rest();
+      if (painter.coarse) painter.settle(this.cameras.camera, () => this.choose(this.canvas.height));
       return;
     }
     if (!this.playback.advance(now)) return;
     this.lastDrawn = now;
     this.owed -= 1;
     // Here, since a canvas of another size is empty until it is drawn.
+    painter.unsettle();
     painter.use(painter.wanted);
     this.creatures.update(this.playback);
     this.obstacles.update(this.playback);
