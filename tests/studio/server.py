@@ -15,6 +15,7 @@ from starlette.testclient import TestClient
 from polypod.errors import PolypodError
 from polypod.studio.app import make_app
 from polypod.studio.document import default_document
+from polypod.studio.messages import files_message
 from polypod.studio.outbox import Telling
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.world_files import WorldFiles
@@ -38,8 +39,11 @@ class FakeRunner:
         self.last: bytes | None = None
         stage = SimpleNamespace(document=default_document())
         self.conductor = SimpleNamespace(
-            stage=stage, tape=None, take=self._take, say=self.said.append
+            stage=stage, tape=None, take=self._take, tell_files=self._tell_files
         )
+
+    def _tell_files(self) -> None:
+        self.said.append(files_message(self.conductor))
 
     def start(self) -> None: ...
 

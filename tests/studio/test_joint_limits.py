@@ -21,11 +21,13 @@ from polypod.report.record import read_record
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document, default_document, edited
 from polypod.studio.joint_limits import list_limits
+from polypod.studio.obeying import obey
 from polypod.studio.outbox import Telling
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.saved import document_of_scene, scene_text
 from polypod.studio.scenes import creature_toml
 from polypod.studio.stage import Stage
+from polypod.studio.world_files import WorldFiles
 from polypod.tables import make_tables
 
 DT = 1.0 / 60.0
@@ -216,7 +218,7 @@ def test_a_scene_keeps_the_limits_and_the_command_line_has_them(tmp_path: Path) 
     document["crowd"] = [{"rig": "ant", "count": 2}]
     file = tmp_path / "scene.toml"
     file.write_text(scene_text(document), encoding="utf-8")
-    opened, _ = document_of_scene(file, default_document())
+    opened = document_of_scene(file, default_document(), WorldFiles(), own=False)
     assert opened["creature"] == document["creature"]
     assert opened["crowd"] == document["crowd"]
     assert read_scene(file).creatures[1].limit is None
@@ -288,7 +290,7 @@ class Heard:
     def edit(self, to: Any, gesture: str) -> None:
         self.told.clear()
         order = {"do": "edit", "at": ["creature", "limit"], "to": to, "gesture": gesture}
-        self.conductor.obey(order)
+        obey(self.conductor, order)
 
 
 def test_a_drag_is_one_step_of_undo_and_tells_limits_alone() -> None:
@@ -304,7 +306,7 @@ def test_a_drag_is_one_step_of_undo_and_tells_limits_alone() -> None:
         fan = next(one for one in told["limits"]["fans"] if one["joint"] == joint["joint"])
         assert (fan["key"], fan["least"], fan["most"]) == ("bend", -0.5, most)
     assert conductor.drawn.skin_numbers == skins
-    conductor.obey({"do": "undo"})
+    obey(conductor, {"do": "undo"})
     assert conductor.stage.document["creature"]["limit"] is None
     assert not conductor.history.can_undo
     assert np.isnan(conductor.stage.herd.morphology.legs.bend_limit).all()
@@ -312,7 +314,7 @@ def test_a_drag_is_one_step_of_undo_and_tells_limits_alone() -> None:
 
 def test_a_recording_ends_when_limits_change() -> None:
     heard = Heard("spider")
-    heard.conductor.obey({"do": "record", "on": True})
+    obey(heard.conductor, {"do": "record", "on": True})
     heard.conductor.step(DT)
     heard.edit({"LeftLeg2Tibia": {"bend": [-0.5, 1.0]}}, "drag")
     heard.conductor.step(DT)

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import io
+import zipfile
 from typing import Any
 
 import numpy as np
 import pytest
 
+from polypod.errors import SettingError
 from polypod.report.record import read_record
 from polypod.rigs.export import glb_bytes
 from polypod.rigs.gltf import GltfDocument
+from polypod.studio import exports
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import default_document, edited
-from polypod.studio.exports import EXPORTS
+from polypod.studio.exports import EXPORTS, WALKS, ended_tape, zip_of_walks
+from polypod.studio.obeying import obey
 from polypod.studio.places import on_other_ground, renumbered
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.stage import STEP, Stage
@@ -33,7 +37,7 @@ class Set:
         self.conductor = Conductor(Stage(document, lambda rig: rig), self.told.append)
 
     def order(self, **order: Any) -> None:
-        self.conductor.obey(order)
+        obey(self.conductor, order)
 
     def edit(self, *at: str | int, to: Any) -> None:
         document = edited(self.conductor.stage.document, list(at), to)
@@ -167,3 +171,40 @@ def test_obstacles_are_found_again(before: str, after: str, numbers: tuple[int, 
     own = (len(after), len(after) + 1)
     assert renumbered(old, new, len(before) + 2) == (*numbers, *own)
     assert on_other_ground(old, new, len(before) + 2) == (*numbers, -1, -1)
+
+
+def test_all_creatures_are_exported_together_once_the_record_has_ended(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = Set()
+    world.edit("crowd", to=[{"rig": "ant", "count": 2}, {"rig": "ant", "count": 1}])
+    with pytest.raises(SettingError, match=r"^nothing is recorded"):
+        ended_tape(world.conductor)
+    world.order(do="record", on=True)
+    world.walk(5)
+    said = world.said("tape")[-1]["kinds"]
+    assert [(kind["name"], kind["count"]) for kind in said] == [
+        ("spider", 1),
+        ("ant", 2),
+        ("ant", 1),
+    ]
+    with pytest.raises(SettingError, match="once the record has ended"):
+        ended_tape(world.conductor)
+    world.order(do="record", on=False)
+    tape = ended_tape(world.conductor)
+    given = (GivenRigs(), WorldFiles())
+    for name in WALKS:
+        export = EXPORTS[name]
+        content = zip_of_walks(tape, name, export, *given)
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            suffix = name[4:]
+            members = [f"{one}{suffix}" for one in ("1-spider-1", "2-ant-1", "2-ant-2", "3-ant-1")]
+            assert archive.namelist() == members
+            for creature, member in enumerate(members):
+                alone = export.write(export.read(world.conductor, creature), *given)
+                assert archive.read(member) == alone
+        assert content == zip_of_walks(tape, name, export, *given), "the same bytes"
+    monkeypatch.setattr(exports, "MOST_BYTES", 1 << 20)
+    big = EXPORTS["walk.glb"]._replace(write=lambda *_: bytes(300_000))
+    with pytest.raises(SettingError, match=r"^4 walks have more than 1 MiB"):
+        zip_of_walks(tape, "walk.glb", big, *given)

@@ -20,11 +20,10 @@ from starlette.routing import Route, WebSocketRoute
 
 from polypod.errors import PolypodError, SettingError
 from polypod.studio.document import Document
-from polypod.studio.exports import EXPORTS, Export
+from polypod.studio.exports import ALL, EXPORTS, WALKS, ended_tape, zip_of_walks
 from polypod.studio.gate import Gate
 from polypod.studio.guard import TooLargeError, inline_hashes, parse_json, read_bounded
 from polypod.studio.link import Hub
-from polypod.studio.messages import files_message
 from polypod.studio.rig_limits import LARGEST_FILE
 from polypod.studio.rigs_given import GivenRigs
 from polypod.studio.scene_folder import LARGEST_SCENE, ZIP, MissingFilesError
@@ -105,7 +104,7 @@ class Studio:
         name = request.query_params.get("name", "mesh.glb")
         await self._use()
         found = await self._judge(partial(self.files.take, data, name))
-        await self._between_frames(lambda conductor: conductor.say(files_message(conductor)))
+        await self._between_frames(lambda conductor: conductor.tell_files())
         return JSONResponse(found)
 
     async def surface(self, request: Request) -> Response:
@@ -121,21 +120,21 @@ class Studio:
 
     async def export(self, request: Request) -> Response:
         """Answer `GET /export/NAME`."""
-        export = EXPORTS.get(request.path_params["name"])
+        name, creature = request.path_params["name"], request.query_params.get("creature", "0")
+        export = EXPORTS.get(name)
         if export is None:
             raise HTTPException(404, f"there is no such export; there are {', '.join(EXPORTS)}")
-        content = await self._export(export, request.query_params.get("creature", "0"))
-        name = request.path_params["name"]
-        disposition = f'attachment; filename="{name}"'
-        return Response(
-            content, media_type=export.kind, headers={"Content-Disposition": disposition}
-        )
-
-    async def _export(self, export: Export, creature: str) -> bytes:
+        if creature == ALL and name in WALKS:
+            tape = await self._between_frames(ended_tape)
+            content = await asyncio.to_thread(
+                zip_of_walks, tape, name, export, self.rigs, self.files
+            )
+            return _file(content, "application/zip", "walks.zip")
         if not (creature.isascii() and creature.isdigit() and len(creature) < 6):
-            raise SettingError("creature: must be a creature's number")
+            raise SettingError("creature: must be a creature's number, or of a walk: all")
         found = await self._between_frames(partial(export.read, creature=int(creature)))
-        return await asyncio.to_thread(export.write, found, self.rigs, self.files)
+        content = await asyncio.to_thread(export.write, found, self.rigs, self.files)
+        return _file(content, export.kind, name)
 
     async def _use(self) -> Document:
         """Return the document, and have what it names stay."""
@@ -220,6 +219,11 @@ def _number(request: Request) -> int:
     if not (text.isascii() and text.isdigit() and len(text) < 12):
         raise HTTPException(404, "there is nothing of that number")
     return int(text)
+
+
+def _file(content: bytes, kind: str, name: str) -> Response:
+    disposition = f'attachment; filename="{name}"'
+    return Response(content, media_type=kind, headers={"Content-Disposition": disposition})
 
 
 def _arrays(content: bytes | None) -> Response:

@@ -51,6 +51,7 @@ class Conductor:
         self._overlays_told = 0.0
         self._overlays_of = -1  # number of the frame with which they were sent last
         self._tell = tell
+        self._files_told = files_message(self)
         self.newest = b""  # the frame sent last
         self._judge = Judge()
         self._verdict = stage.question().answer()
@@ -76,6 +77,13 @@ class Conductor:
     def say(self, message: dict[str, Any]) -> None:
         """Send a message to all tabs."""
         self._tell(Telling("text", message))
+
+    def tell_files(self) -> None:
+        """Say which files there are, if these are others than were said last."""
+        message = files_message(self)
+        if message != self._files_told:
+            self._files_told = message
+            self.say(message)
 
     def tell_clock(self) -> None:
         """Say how time goes."""
@@ -182,7 +190,7 @@ class Conductor:
             self._stop_tape("joints have other limits now")
             self.say(limits_of(self.stage.herd, self.stage.rig))
         # Before the document that may name them.
-        self.say(files_message(self))
+        self.tell_files()
         self.say(document_message(self))
         if any(document[k] != before[k] for k in ("creature", "gait", "command")):
             self._judge.ask(self.stage.question())
@@ -232,11 +240,12 @@ class Conductor:
 
     def _stop_tape(self, why: str = "") -> None:
         """End a recording that is under way, and say why where nobody asked for it."""
-        if self.tape is not None and self.tape.recording:
-            self.tape.recording = False
-            if why:
-                why = f"recording has ended: {why}; what was recorded is kept"
-                self.say({"is": "trouble", "why": why})
+        if self.tape is None or not self.tape.recording:
+            return
+        self.tape.recording = False
+        if why:
+            why = f"recording has ended: {why}; what was recorded is kept"
+            self.say({"is": "trouble", "why": why})
         self.say(tape_message(self))
 
     def scrub(self, index: int | None) -> None:

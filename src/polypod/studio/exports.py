@@ -17,10 +17,14 @@ from polypod.report.record import MEMBER_DATE, write_record
 from polypod.rigs.export import glb_bytes
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import Document
-from polypod.studio.rigs_given import GivenRigs
+from polypod.studio.rigs_given import GivenRigs, clean_name
 from polypod.studio.scenes import creature_toml, scene_toml, scene_zip
-from polypod.studio.tape import NOTHING, Walk
+from polypod.studio.tape import NOTHING, Tape, Walk
 from polypod.studio.world_files import WorldFiles
+
+MOST_BYTES = 512 << 20  # of the walks of all creatures together
+WALKS = ("walk.glb", "walk.npz")
+ALL = "all"
 
 
 class Export(NamedTuple):
@@ -67,6 +71,54 @@ def _scene_zip(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
 
 def _creature(document: Document, rigs: GivenRigs, files: WorldFiles) -> bytes:
     return creature_toml(document["creature"], rigs).encode()
+
+
+def ended_tape(conductor: Conductor) -> Tape:
+    """Return the tape when nothing is added to it any more.
+
+    Raises:
+        SettingError: nothing was recorded, or the record is not at its end.
+    """
+    tape = conductor.tape
+    if tape is None:
+        raise SettingError(NOTHING)
+    if tape.recording:
+        raise SettingError("all creatures are exported together once the record has ended")
+    return tape
+
+
+def zip_of_walks(
+    tape: Tape, name: str, export: Export, rigs: GivenRigs, files: WorldFiles
+) -> bytes:
+    """Return a zip of the walks of all creatures, each in a file of its own.
+
+    Args:
+        tape: that has ended.
+        name: of the export, whose suffix the files have.
+        export: how each is written.
+        rigs: that were given.
+        files: of the world.
+
+    Raises:
+        SettingError: nothing was recorded, or the files are too large together.
+    """
+    packed, total, creature = io.BytesIO(), 0, 0
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for i, kind in enumerate(tape.kinds):
+            for number in range(1, kind.creatures + 1):
+                content = export.write(tape.walk(creature), rigs, files)
+                total += len(content)
+                if total > MOST_BYTES:
+                    raise SettingError(
+                        f"{sum(kind.creatures for kind in tape.kinds)} walks have more than "
+                        f"{MOST_BYTES >> 20} MiB; export creatures one by one, or record for less "
+                        "time"
+                    )
+                # Two kinds may be called alike.
+                member = clean_name(f"{i + 1}-{kind.name}-{number}.", Path(name).suffix)
+                archive.writestr(zipfile.ZipInfo(member, MEMBER_DATE), content)
+                creature += 1
+    return packed.getvalue()
 
 
 EXPORTS = {

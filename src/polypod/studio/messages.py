@@ -88,12 +88,14 @@ def verdict_message(verdict: Verdict) -> Message:
 def tape_message(conductor: Conductor) -> Message:
     """Say what is recorded."""
     tape = conductor.tape
+    kinds = [] if tape is None else tape.kinds
     return {
         "is": "tape",
         "recording": tape is not None and tape.recording,
         "frames": 0 if tape is None else len(tape.frames),
         "seconds": 0.0 if tape is None else tape.seconds,
         "scrub": conductor.scrubbed,
+        "kinds": [{"name": kind.name, "count": kind.creatures} for kind in kinds],
     }
 
 

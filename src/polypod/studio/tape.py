@@ -47,6 +47,13 @@ class Stood(NamedTuple):
     rotation: FloatArray  # [O, 4]
 
 
+class Kind(NamedTuple):
+    """Creatures of a rig."""
+
+    name: str
+    creatures: int
+
+
 class Walk(NamedTuple):
     """The recording of a creature, and which of its obstacles stood in each frame."""
 
@@ -64,6 +71,7 @@ class Tape:
         self.grounds: dict[int, bytes] = {}
         self.start = world.time
         self.seconds = 0.0
+        self.kinds = [Kind(herd.morphology.name, herd.count) for herd in herds]
         self._herds = list(herds)
         self._bytes = 0
         self._backdrops: list[Backdrop] = []

@@ -1,6 +1,6 @@
 // The Record panel: what is recorded, and everything that can be taken away.
 
-import { addStyle, make, makeButton, makeSection, saveAs } from "/page/elements.js";
+import { addStyle, fillChoice, make, makeButton, makeChoice, makeSection, saveAs } from "/page/elements.js";
 import { LinkOpener, linkFor } from "/page/link_state.js";
 import { Video } from "/page/video.js";
 
@@ -8,6 +8,8 @@ const FILES = [
   ["GLB, the rig with this motion", "walk.glb"],
   ["NPZ, the record as numbers", "walk.npz"],
 ];
+
+const ALL = "all";
 
 export function mountRecord(element, store, scene) {
   addStyle("panels.css");
@@ -41,12 +43,15 @@ function recording(store) {
   return [make("div", { class: "row" }, button), words, note];
 }
 
+// What was recorded, of one creature or of all.
 function exports(store) {
+  const whose = makeChoice("Creature to export", () => {});
+  const row = make("label", { class: "row" }, "Of", whose);
   const buttons = FILES.map(([words, name]) => makeButton(words, async () => {
     for (const button of buttons) button.disabled = true;
     try {
-      const answer = await store.fetchSettled(`/export/${name}`);
-      saveAs(await answer.blob(), nameFrom(answer, name));
+      const answer = await store.fetchSettled(`/export/${name}?creature=${whose.value}`);
+      saveAs(await answer.blob(), fileName(whose, name));
     } catch (error) {
       store.say(error.message);
     }
@@ -54,17 +59,24 @@ function exports(store) {
   }));
   const show = () => {
     const { frames, recording: on } = store.tape;
+    const names = store.tape.kinds.flatMap(({ name, count }) => Array(count).fill(name));
+    const each = names.map((name, i) => [String(i), names.length > 1 ? `${name}, ${i + 1}` : name]);
+    const all = [ALL, `all ${names.length}, as a ZIP`];
+    const there = each.some(([value]) => value === whose.value) || whose.value === ALL;
+    fillChoice(whose, names.length > 1 ? [...each, all] : each, there ? whose.value : "0");
+    row.hidden = names.length < 2;
     for (const button of buttons) button.disabled = frames === 0 || on;
   };
   store.on("tape", show);
   show();
-  return make("div", { class: "column" }, ...buttons);
+  return make("div", { class: "column" }, row, ...buttons);
 }
 
-// The name that the server gives a file: that of the creature; several creatures come as a zip.
-function nameFrom(answer, usual) {
-  const header = answer.headers.get("Content-Disposition") ?? "";
-  return /filename="?([\w.-]+)"?/.exec(header)?.[1] ?? usual;
+// "Fox-walk.glb", of creature 3 of many "Fox-3-walk.glb", of all "walks.zip".
+function fileName(whose, name) {
+  if (whose.value === ALL) return "walks.zip";
+  const words = whose.selectedOptions[0]?.textContent ?? "";
+  return [...words.split(", "), name].map((word) => word.replace(/[^\p{L}\p{N}._-]+/gu, "_")).join("-");
 }
 
 function view(element, store, scene) {

@@ -10,7 +10,7 @@ export class Store {
     this.kinds = null;
     this.clock = { playing: true, rate: 1, time: 0, frame: 0, behind: 1 };
     this.verdict = null;
-    this.tape = { recording: false, frames: 0, seconds: 0, scrub: null };
+    this.tape = { recording: false, frames: 0, seconds: 0, scrub: null, kinds: [] };
     this.welcome = null;
     this.files = null; // meshes and grounds that are there
     this.backdrop = { obstacle: null, ground: null }; // what stood in the frame of the tape that is shown
