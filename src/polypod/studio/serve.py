@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import secrets
 import socket
 import threading
@@ -20,6 +21,14 @@ from polypod.studio.world_files import WorldFiles
 HOME = "127.0.0.1"
 USUAL_PORT = 8571  # the same each time, so that links to a state go on leading somewhere
 PING_EVERY = 10.0  # s; a page that does not answer for as long is gone
+
+
+class Answered(logging.Filter):
+    """Leaves out a complaint of uvicorn's that is none: a websocket was refused with an answer."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Return whether a record is logged."""
+        return "without completing handshake" not in record.getMessage()
 
 
 def bind(port: int | None) -> socket.socket:
@@ -81,6 +90,7 @@ def serve(
         server_header=False,
         timeout_graceful_shutdown=2,
     )
+    logging.getLogger("uvicorn.error").addFilter(Answered())
     opened(f"http://{HOME}:{port}/")
     try:
         uvicorn.Server(config).run(sockets=[listener])
