@@ -248,11 +248,11 @@ def test_candidates_are_ringed_in_their_foots_colour(tab: Any) -> None:
     tab.ask(
         """(() => { window.feet = new Set(); polypod.on("arrays", ({ name, arrays }) => {
           if (name !== "candidates") return;
-          const { rows, count } = polypod.scene.overlays.plan.candidates;
+          const { rows, count, stride } = polypod.scene.overlays.plan.candidates;
           for (let i = 0; i < arrays.foot.data.length; i++) {
             const hex = polypod.creature.feet[arrays.foot.data[i]].colour;
             const wanted = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
-            const ring = Array.from(rows.slice(10 * i + 5, 10 * i + 8));
+            const ring = Array.from(rows.slice(4 * stride * i + 5, 4 * stride * i + 8));
             if (count !== 2 * arrays.foot.data.length) window.feet.add("a ring is missing");
             if (Math.hypot(...ring.map((v, a) => v - wanted[a])) > 0.01) window.feet.add(`${ring}`);
             else window.feet.add(arrays.foot.data[i]);

@@ -3,6 +3,7 @@
 
 import { make, makeSvg } from "/page/elements.js";
 import { movedEnd } from "/page/limit_edit.js";
+import { MOVE } from "/page/moves.js";
 
 const RADIUS = 40;
 const RIM = 47;
@@ -100,7 +101,7 @@ export class LimitDial {
       this.editor.begin();
       drag = { last: this.angleAt(event), angle: this.turn[end] };
     });
-    handle.addEventListener("pointermove", (event) => {
+    handle.addEventListener(MOVE, (event) => {
       if (!drag) return;
       // Turns add up, so that a hand that goes round past the foot of the dial goes on.
       const angle = this.angleAt(event);

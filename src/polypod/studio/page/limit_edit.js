@@ -10,21 +10,17 @@ const PAUSE = 900; // ms between two key strokes that are still one gesture
 const LEAST_LEG = Math.PI / 180;
 
 export class LimitEditor {
-  // `mirror` is the switch that says whether the joint of the leg on the other side goes along,
-  // `settled` is called when nothing is on its way any more.
-  constructor(store, mirror, settled) {
+  // `mirror` is the switch that says whether the joint of the leg on the other side goes along.
+  constructor(store, mirror) {
     Object.assign(this, { store, mirror });
-    this.gesture = new Gesture(store, settled);
+    this.gesture = new Gesture(store);
     this.begun = {};
     this.stroked = null; // what keys are moving, and since when
   }
 
-  // All limits that are said now: by what was asked for and is still on its way, else by the
-  // document, else by the creature's file.
+  // All limits that are said now: by what was asked for, else by the creature's file.
   said() {
-    const waits = this.gesture.pending(AT);
-    const asked = waits === undefined ? this.store.document.creature.limit : waits;
-    return asked ?? this.store.creature.file_limit;
+    return this.store.wanted.creature.limit ?? this.store.creature.file_limit;
   }
 
   // The same joint of the leg on the other side, or null.

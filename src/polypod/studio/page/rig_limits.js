@@ -22,7 +22,7 @@ export class LimitPanel {
     this.mirror = new Switch("Mirror", "polypod.limits.mirror", true, () => this.mark(), {
       "aria-label": "Mirror limits left and right", title: "The same joint of the leg on the other side goes along",
     });
-    this.editor = new LimitEditor(store, this.mirror, () => this.refresh());
+    this.editor = new LimitEditor(store, this.mirror);
     this.choice = makeChoice("Joint", (name) => this.choose(name));
     this.all = makeButton("Reset all", () => this.editor.reset(), { "aria-label": "All limits as found", title: "All joints as found in the rig's own file" });
     this.words = make("p", { class: "quiet", role: "status" });
@@ -33,7 +33,7 @@ export class LimitPanel {
       make("div", { class: "row" }, this.choice, this.mirror.element, this.all),
       this.words, this.body, this.numbers, make("p", { class: "quiet" }, HINT),
     );
-    store.on("limits", () => this.refresh());
+    for (const kind of ["limits", "document"]) store.on(kind, () => this.refresh());
     store.on("frame", (frame) => this.follow(frame));
   }
 
