@@ -18,6 +18,14 @@ LEVELS = """([level, steps]) => import("/page/quality.js").then(({ Quality }) =>
     return quality.level;
   });
 })"""
+# ms that pictures wait for each other, after so many words on what share of real time is kept.
+PAUSES = """(words) => import("/page/quality.js").then(({ Patience }) => {
+  const patience = new Patience();
+  return words.map(([kept, count]) => {
+    for (let n = 0; n < count; n++) patience.take(kept);
+    return patience.pause;
+  });
+})"""
 # How often the level changes in ten minutes on a machine that has time for level 2 but not for 1.
 CHANGES = """() => import("/page/quality.js").then(({ Quality }) => {
   const quality = new Quality(0);
@@ -89,6 +97,16 @@ def test_levels_do_not_go_to_and_fro(tab: Any) -> None:
     tries = changes[2::2]
     waits = [later - earlier for earlier, later in pairwise(tries)]
     assert all(later > 1.5 * earlier for earlier, later in pairwise(waits))
+
+
+def test_pictures_wait_where_the_simulation_does_not_keep_up(tab: Any) -> None:
+    def pauses(*words: tuple[float, int]) -> list[float]:
+        return tab.page.evaluate(PAUSES, [list(word) for word in words])
+
+    assert pauses((1.0, 100), (0.97, 100)) == [0, 0]
+    first, most, still, gone = pauses((0.8, 1), (0.8, 20), (0.98, 20), (1.0, 20))
+    assert 33 < first < most == still <= 110
+    assert gone == 0
 
 
 def test_nothing_is_drawn_while_nothing_stirs(tab: Any) -> None:

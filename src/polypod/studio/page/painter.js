@@ -3,7 +3,7 @@
 
 import { THREE } from "three";
 import { pace } from "/page/canvas.js";
-import { BEST, FASTEST, LEVELS, Quality } from "/page/quality.js";
+import { BEST, FASTEST, LEVELS, Patience, Quality } from "/page/quality.js";
 
 const KEPT = "polypod.quality";
 // Without a GPU: where to begin, so that the first seconds are no show of slides.
@@ -24,6 +24,7 @@ export class Painter {
     this.renderer = makeRenderer(software);
     this.canvas = this.renderer.domElement;
     this.quality = new Quality(software ? SOFTWARE : BEST);
+    this.patience = software ? new Patience() : null;
     this.listeners = new Set();
     this.filming = false; // a video is made of the view
     this.drawn = 0; // pictures, for whoever measures
@@ -49,6 +50,16 @@ export class Painter {
 
   tell() {
     for (const listener of this.listeners) listener();
+  }
+
+  // Take the share of real time that the simulation keeps while it walks.
+  share(kept) {
+    this.patience?.take(kept);
+  }
+
+  // ms from one picture to the next, at least.
+  get pause() {
+    return this.filming ? 0 : this.patience?.pause ?? 0;
   }
 
   get wanted() {
@@ -138,9 +149,9 @@ export class Painter {
     shadowMap.needsUpdate ||= due;
     this.renderer.render(this.scene, camera);
     this.drawn += 1;
-    if (walks && this.last && !document.hidden && this.pinned === "auto" && !this.filming) {
-      this.quality.take(now - this.last);
-    }
+    // Pictures that waited tell nothing of how long they take.
+    const judged = this.pinned === "auto" && !this.filming && this.pause === 0 && !document.hidden;
+    if (walks && this.last && judged) this.quality.take(now - this.last);
     this.last = walks ? now : 0;
   }
 

@@ -21,6 +21,16 @@ const SETTLING = 3; // pictures after a change that tell nothing: shaders are ma
 const ASLEEP = 2000; // ms: longer than any picture takes
 const FIRST_WAIT = 5000; // ms that pictures come quickly before a finer level is tried
 const LONGEST_WAIT = 320000;
+// Of real time: a simulation that keeps less than the first has too little of the processor, one that
+// keeps more than the second has enough.
+const LATE = 0.96;
+const PROMPT = 0.99;
+// ms from one picture to the next, where pictures wait for the simulation; and how waits grow and fade
+// from one word on how it keeps up to the next.
+const LEAST_PAUSE = 40;
+const MOST_PAUSE = 110;
+const LONGER = 1.25;
+const SHORTER = 0.93;
 const TRIAL = 15000; // ms: a finer level that is left sooner was too much
 
 export class Quality {
@@ -86,5 +96,20 @@ export class Quality {
     this.level -= 1;
     this.tried = 0;
     this.begin();
+  }
+}
+
+// Where no GPU draws, pictures and the simulation share the processor, and a crowd that walks in real
+// time is worth more than a few pictures more of it in slow motion.
+export class Patience {
+  constructor() {
+    this.pause = 0; // ms from one picture to the next at least
+  }
+
+  // Take the share of real time that the simulation keeps, as it is told a few times a second.
+  take(kept) {
+    if (kept < LATE) this.pause = Math.min(Math.max(LONGER * this.pause, LEAST_PAUSE), MOST_PAUSE);
+    else if (kept > PROMPT) this.pause = this.pause > LEAST_PAUSE ? SHORTER * this.pause : 0;
+    return this.pause;
   }
 }

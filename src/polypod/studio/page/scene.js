@@ -135,6 +135,7 @@ class Scene {
       if (painter.coarse) painter.settle(this.cameras.camera, () => this.choose(this.canvas.height));
       return;
     }
+    if (walks && now - this.lastDrawn < painter.pause) return;
     if (!this.playback.advance(now)) return;
     this.lastDrawn = now;
     this.owed -= 1;
