@@ -26,7 +26,7 @@ mountTabs(document.querySelector("#tabs"), document.querySelector("#page"), [
   ["Feet", (element) => mountFeet(element, store)],
   ["Body", (element) => mountBody(element, store)],
   ["World", (element) => mountWorld(element, store, scene)],
-  ["Rig", (element) => mountRig(element, store, scene)],
+  ["Rig", (element) => mountRig(element, store)],
   ["Record", (element) => mountRecord(element, store, scene)],
 ]);
 mountStrip(document.querySelector("#strip"), store);
