@@ -13,7 +13,7 @@ from polypod.errors import SettingError
 from polypod.report.record import read_record
 from polypod.rigs.export import glb_bytes
 from polypod.rigs.gltf import GltfDocument
-from polypod.studio import exports
+from polypod.studio import conductor, exports
 from polypod.studio.conductor import Conductor
 from polypod.studio.document import default_document, edited
 from polypod.studio.exports import EXPORTS, WALKS, ended_tape, zip_of_walks
@@ -208,3 +208,29 @@ def test_all_creatures_are_exported_together_once_the_record_has_ended(
     big = EXPORTS["walk.glb"]._replace(write=lambda *_: bytes(300_000))
     with pytest.raises(SettingError, match=r"^4 walks have more than 1 MiB"):
         zip_of_walks(tape, "walk.glb", big, *given)
+
+
+def test_large_frames_are_not_all_sent_but_all_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
+    world = Set()
+
+    def sent() -> int:
+        return sum(one.kind == "frame" for one in world.told)
+
+    world.order(do="record", on=True)
+    before = sent()
+    world.walk(12)
+    assert sent() == before + 12
+    monkeypatch.setattr(conductor, "MOST_SENT", 30 * len(world.conductor.newest))
+    before = sent()
+    world.walk(12)
+    assert sent() == before + 4, "every third"
+    # What follows from an order is sent at once.
+    for speed in (0.1, 0.2, 0.3):
+        world.order(do="edit", at=["command", "speed"], to=speed)
+        before = sent()
+        world.walk(1)
+        assert sent() == before + 1
+    tape = world.conductor.tape
+    assert tape is not None
+    assert len(tape.frames) == 28
+    assert len(tape.walk(0).recording.time) == 28

@@ -22,6 +22,7 @@ def obey(conductor: Conductor, order: dict[str, Any]) -> None:
         PolypodError: it cannot be done; nothing has changed.
     """
     present = conductor.stage.document
+    conductor.urgent = True
     match order["do"]:
         case "edit":
             document = edited(present, order["at"], order["to"])
