@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import tomllib
 from pathlib import Path
@@ -171,6 +172,26 @@ def test_crowd_walks_beside_and_stays_within_its_bounds(tab: Any) -> None:
     assert tab.document["crowd"] == [{"rig": "ant", "count": 10}]
 
 
+def test_a_crowd_of_ones_own_rig_is_of_its_size(tab: Any) -> None:
+    asked = {**tab.document["creature"], "rig": "wolf", "height": 0.4}
+    tab.ask(
+        f"polypod.send({{do: 'open', document: {json.dumps({**tab.document, 'creature': asked})}}})"
+    )
+    tab.until(lambda: tab.ask("polypod.creature.name") == "wolf", "a small wolf walks")
+    tab.open_panel("World")
+    tab.button("Add a kind").click()
+    tab.until(lambda: tab.document["crowd"], "a kind is there")
+    assert tab.document["crowd"] == [{"rig": "wolf", "height": 0.4, "count": 10}]
+    # Of another size it is chosen in the Rig panel, for all of them.
+    tab.open_panel("Rig")
+    tab.until(tab.button("It walks").is_visible, "it is looked at")
+    tab.type_into("Height in m", "0.6")
+    tab.until(tab.button("Walk it").is_enabled, "it is judged")
+    tab.button("Walk it").click()
+    tab.until(lambda: tab.document["creature"]["height"] == 0.6, "it is larger")
+    assert tab.document["crowd"][0]["height"] == 0.6
+
+
 def test_scene_is_saved_and_opened_again(tab: Any, tmp_path: Path) -> None:
     tab.open_panel("World")
     tab.button("Add a cylinder").click()
@@ -187,3 +208,17 @@ def test_scene_is_saved_and_opened_again(tab: Any, tmp_path: Path) -> None:
     file.write_text("[[obstacle]]\nshape = 'pyramid'\n")
     tab.page.get_by_label("Scene file").set_input_files(file)
     tab.until(lambda: "pyramid" in tab.words, "a scene that is none is refused with a word")
+
+
+def test_feet_are_listed_alike_everywhere(tab: Any) -> None:
+    tab.open_panel("Feet")
+    choice = tab.page.get_by_role("combobox", name="Foot").locator("visible=true")
+    feet = [name.removesuffix("Foot") for name in choice.locator("option").all_text_contents()]
+    assert feet == [f"{side}Leg{i}" for i in (1, 2, 3, 4) for side in ("Left", "Right")]
+    tab.open_panel("Gait")
+    assert tab.page.locator(".wheels [role=group]").count() >= 8
+    tab.open_panel("Rig")
+    legs = tab.page.get_by_role("list", name="Legs", exact=True).get_by_role("listitem")
+    tab.until(lambda: legs.count() == 8, "its legs are found")
+    rows = legs.locator("span.grow").all_text_contents()
+    assert all(row.endswith(f"{foot}Foot") for row, foot in zip(rows, feet, strict=True)), rows

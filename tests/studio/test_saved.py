@@ -65,3 +65,17 @@ def test_a_scene_with_creatures_brings_them(tmp_path: Path) -> None:
     assert document["creature"]["rig"] == "wolf"
     assert document["crowd"] == [{"rig": "wolf", "count": 2}, {"rig": "ant", "count": 1}]
     assert len(read_scene(file).creatures) == 2
+
+
+def test_a_crowd_is_saved_and_opened_as_large_as_it_is(tmp_path: Path) -> None:
+    document = default_document("wolf")
+    small = {"rig": "wolf", "height": 0.5, "limit": {"Head": {"yaw": 0.2}}}
+    document["crowd"] = [{**small, "count": 3}, {"rig": "ant", "count": 2}]
+    file = tmp_path / "scene.toml"
+    file.write_text(scene_text(judged(document)), encoding="utf-8")
+    opened = document_of_scene(file, default_document(), WorldFiles(), own=False)
+    assert opened["crowd"] == document["crowd"]
+    herd = '[[creature]]\nrig = "wolf"\nheight = 0.5\ncount = 3\n'
+    file.write_text(herd, encoding="utf-8")
+    opened = document_of_scene(file, default_document(), WorldFiles(), own=False)
+    assert opened["crowd"] == [{"rig": "wolf", "height": 0.5, "count": 2}]

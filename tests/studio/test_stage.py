@@ -177,6 +177,14 @@ def test_another_creature_and_a_crowd_stand_and_stroll() -> None:
     assert (gone > 0.2).all()
 
 
+def test_a_crowd_is_as_large_as_it_is_asked_for() -> None:
+    stage = stage_of()
+    kinds = [{"rig": "wolf", "height": 0.4, "count": 2}, {"rig": "wolf", "count": 1}]
+    stage.apply(edited(stage.document, ["crowd"], kinds))
+    small, own = (herd.tables.leg_length for herd in stage.herds[1:])
+    assert small < 0.6 * own
+
+
 def test_on_another_ground_it_goes_on_from_where_it_is() -> None:
     stage = stage_of()
     walk(stage, 2.0)

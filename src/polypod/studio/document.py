@@ -156,8 +156,8 @@ def _list(table: SceneTable, key: str, most: int) -> list[Any]:
     return items
 
 
-def _judge_creature(place: str, values: Any) -> None:
-    table = SceneTable(place, values, CREATURE)
+def _judge_creature(place: str, values: Any, others: tuple[str, ...] = ()) -> SceneTable:
+    table = SceneTable(place, values, (*CREATURE, *others))
     table.text("rig")
     for key in ("leg", "spine"):
         names = table.values.get(key)
@@ -179,13 +179,13 @@ def _judge_creature(place: str, values: Any) -> None:
                 f"{place}: limit has {len(limits)} joints; the most is {MOST_LIMITS}"
             )
         judge_limits(place, limits)
+    return table
 
 
 def _judge_crowd(kinds: list[Any]) -> None:
     total = 1
     for i, kind in enumerate(kinds):
-        table = SceneTable(f"number {i + 1} of the document's crowd", kind, ("rig", "count"))
-        table.text("rig")
+        table = _judge_creature(f"number {i + 1} of the document's crowd", kind, ("count",))
         total += table.whole("count", None, 1, MOST_CREATURES)
     if total > MOST_CREATURES:
         raise SettingError(f"{total} creatures are too many; the most is {MOST_CREATURES}")

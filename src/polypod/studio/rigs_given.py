@@ -179,6 +179,8 @@ class GivenRigs:
                     "hip": int(nodes[legs.joint[k, 0]]),
                     "foot": find_node(skeleton, foot, "foot"),
                     "name": foot[:LONGEST_NAME],
+                    "row": int(legs.row[k]),
+                    "side": int(legs.side[k]),
                 }
                 for k, foot in enumerate(morphology.foot_name)
             ],

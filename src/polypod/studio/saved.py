@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -29,16 +30,16 @@ def scene_text(document: Document) -> str:
         parts.append(table("[terrain]", document["terrain"]))
     parts += [table("[[obstacle]]", one) for one in document["obstacle"]]
     first, *others = _creatures(document)
-    parts.append(table("[[creature]]", first))
-    parts += tables_by_name("creature.limit", document["creature"]["limit"] or {})
-    parts += [table("[[creature]]", one) for one in others]
+    kinds = (document["creature"], *document["crowd"])
+    for values, asked in zip((first, *others), kinds, strict=True):
+        parts.append(table("[[creature]]", values))
+        parts += tables_by_name("creature.limit", asked.get("limit") or {})
     return "\n".join(parts)
 
 
 def _creatures(document: Document) -> list[dict[str, Any]]:
     asked = document["creature"]
-    first: dict[str, Any] = {"rig": asked["rig"]}
-    first |= {key: asked[key] for key in NAMED if asked[key] is not None}
+    first = _named(asked)
     command, gait = document["command"], document["gait"]
     first["heading"] = command["heading"]
     if command["speed"] is not None:
@@ -47,7 +48,11 @@ def _creatures(document: Document) -> list[dict[str, Any]]:
         first["gait"] = gait["name"]
     if document["path"]:
         first["path"] = [[0.0, 0.0], *document["path"]]
-    return [first, *(dict(kind) for kind in document["crowd"])]
+    return [first, *(_named(kind) | {"count": kind["count"]} for kind in document["crowd"])]
+
+
+def _named(asked: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: asked[key] for key in ("rig", *NAMED) if asked.get(key) is not None}
 
 
 def creature_text(values: dict[str, Any]) -> str:
@@ -99,10 +104,7 @@ def document_of_scene(path: Path, before: Document, files: WorldFiles, own: bool
 
 def _take_creatures(document: Document, scene: Scene) -> None:
     for i, spec in enumerate(scene.creatures):
-        if i > 0:
-            document["crowd"].append({"rig": spec.rig, "count": spec.count})
-            continue
-        document["creature"] = {
+        asked = {
             "rig": spec.rig,
             "leg": list(spec.leg) or None,
             "spine": list(spec.spine) or None,
@@ -111,12 +113,17 @@ def _take_creatures(document: Document, scene: Scene) -> None:
             "body_height": spec.body_height,
             "limit": spec.limit,
         }
+        kind = {key: value for key, value in asked.items() if value is not None}
+        if i > 0:
+            document["crowd"].append({**kind, "count": spec.count})
+            continue
+        document["creature"] = asked
         document["command"]["speed"] = spec.speed
         document["command"]["heading"] = spec.heading or 0.0
         way = [list(point) for point in spec.path]
         document["path"] = way[1:] if way and way[0] == [0.0, 0.0] else way
         if spec.count > 1:
-            document["crowd"].append({"rig": spec.rig, "count": spec.count - 1})
+            document["crowd"].append({**kind, "count": spec.count - 1})
 
 
 def obstacle_values(obstacle: Obstacle) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from polypod.herd import Herd
 from polypod.ik.table import build_ik_table
 from polypod.relimit import relimit
 from polypod.studio.asked import ask, gait_of, settings_of
-from polypod.studio.document import Document
+from polypod.studio.document import CREATURE, Document
 from polypod.studio.joint_limits import (
     LimitedRig,
     cannot_be,
@@ -195,7 +195,7 @@ class Stage:
         morphology = rig.limited(document["creature"].get("limit"))
         gait_of(document, morphology)
         kinds = [
-            (self._rig({"rig": kind["rig"]}).limited(None), kind["count"])
+            (self._rig(as_creature(kind)).limited(kind.get("limit")), kind["count"])
             for kind in document["crowd"]
         ]
         place = make_place(document, self.files)
@@ -233,6 +233,11 @@ class Stage:
             return None
         self.world.change_place(change.environment, change.renumbered)
         return change.renumbered
+
+
+def as_creature(kind: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a kind of the crowd as the document has its first creature."""
+    return {key: kind.get(key) for key in CREATURE}
 
 
 def _who_walks(document: Document) -> tuple[Any, ...]:

@@ -23,13 +23,21 @@ export class CrowdPanel {
 
   grow() {
     const { crowd, creature } = this.store.wanted;
-    const kind = { rig: creature.rig, count: Math.min(10, this.room()) };
+    const kind = { ...this.asRead(creature.rig), count: Math.min(10, this.room()) };
     this.store.edit(["crowd"], [...crowd, kind]);
   }
 
-  change(i, keys) {
+  // A rig as it walks here already: its size, front, legs, spine and limits are those.
+  asRead(rig) {
+    const { creature, crowd } = this.store.wanted;
+    const here = [creature, ...crowd].find((one) => one.rig === rig) ?? { rig };
+    const { count, ...kind } = here;
+    return Object.fromEntries(Object.entries(kind).filter(([, value]) => value !== null));
+  }
+
+  count(i, count) {
     const { crowd } = this.store.wanted;
-    return this.store.edit(["crowd"], crowd.with(i, { ...crowd[i], ...keys }));
+    return this.store.edit(["crowd"], crowd.with(i, { ...crowd[i], count }));
   }
 
   // Kinds to choose from: built-in ones, and the rigs that are here already.
@@ -60,13 +68,14 @@ export class CrowdPanel {
 
   row(i) {
     const choice = makeChoice(`Kind ${i + 1}`, async (rig) => {
-      await this.change(i, { rig });
+      const { crowd } = this.store.wanted;
+      await this.store.edit(["crowd"], crowd.with(i, { ...this.asRead(rig), count: crowd[i].count }));
       this.refresh();
     });
     const box = new NumberBox({
       label: `How many of kind ${i + 1}`, decimals: 0, step: 1,
       read: () => this.store.wanted.crowd[i]?.count ?? null,
-      write: (count) => this.change(i, { count: Math.round(count) }),
+      write: (count) => this.count(i, Math.round(count)),
     });
     const remove = makeButton("✕", () => {
       this.store.edit(["crowd"], this.store.wanted.crowd.toSpliced(i, 1));

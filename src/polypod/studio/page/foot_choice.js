@@ -1,6 +1,7 @@
 // A foot chosen from a list, and numbers of it.
 
 import { fillChoice, make, makeChoice } from "/page/elements.js";
+import { foreToHind } from "/page/foot_order.js";
 
 export class FootChoice {
   // `mark` hears which foot is chosen; `figures` are lines with numbers of it.
@@ -24,7 +25,7 @@ export class FootChoice {
   fill() {
     const feet = this.store.creature?.feet ?? [];
     if (this.foot >= feet.length) this.foot = 0;
-    fillChoice(this.list, feet.map(({ name }, k) => [String(k), name]), String(this.foot));
+    fillChoice(this.list, foreToHind(feet).map((k) => [String(k), feet[k].name]), String(this.foot));
     this.choose(this.foot);
   }
 

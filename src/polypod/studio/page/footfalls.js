@@ -5,6 +5,7 @@ import { cut, fit, palette, redraw } from "/page/canvas.js";
 import { disksOf, needleNow, wrap } from "/page/disks.js";
 import { make } from "/page/elements.js";
 import { shortNames } from "/page/foot_names.js";
+import { foreToHind } from "/page/foot_order.js";
 import { shown } from "/page/switches.js";
 
 const NAMES = 84; // px, for the feet's names
@@ -44,7 +45,7 @@ export class Footfalls {
     const past = cycleRate > 0 ? Math.min(PAST_CYCLES / cycleRate, LONGEST_SECONDS) : RESTING_SECONDS;
     const line = NAMES + PAST_SHARE * (width - NAMES);
     const scale = { line, perSecond: (line - NAMES) / past, width, height };
-    this.order = feet.map((_, k) => k).sort((a, b) => feet[b].row - feet[a].row || feet[b].side - feet[a].side);
+    this.order = foreToHind(feet);
     this.drawAxis(context, scale, past);
     this.drawNames(context, feet);
     this.drawPast(context, scale, feet, frame, past);

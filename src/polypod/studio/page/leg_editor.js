@@ -1,6 +1,7 @@
 // Legs and spine of a rig: a list, corrected by clicking hips and feet in the tree or the picture.
 
 import { make, makeButton } from "/page/elements.js";
+import { foreToHind } from "/page/foot_order.js";
 
 // Colours of legs beyond those of the creature that walks: each a good part of the circle on.
 const GOLDEN = 137.508;
@@ -46,7 +47,7 @@ export class LegEditor {
   show(draft) {
     if (draft !== this.draft) this.want(null, draft);
     this.draft = draft;
-    const rows = draft.legs.map((leg, i) => this.row(leg, i));
+    const rows = foreToHind(draft.placedLegs()).map((i) => this.row(draft.legs[i], i));
     this.list.replaceChildren(...rows);
     const names = draft.spine.map((node) => draft.label(node));
     this.spine.textContent = names.length ? names.join(" → ") : "None: its trunk is one piece.";

@@ -252,6 +252,11 @@ class RigPanel {
     const wanted = structuredClone(this.store.wanted);
     Object.assign(wanted, { creature: this.creatureOfDraft(), gait: null, spacing: [] });
     for (const key of OWN) wanted.command[key] = null;
+    // The same rig in the crowd is what was corrected too.
+    const { rig, leg, spine, forward, height } = wanted.creature;
+    wanted.crowd = wanted.crowd.map((kind) => (
+      kind.rig === rig ? { rig, leg, spine, forward, height, limit: wanted.creature.limit, count: kind.count } : kind
+    ));
     const limited = this.store.document.creature;
     try {
       await this.store.send({ do: "open", document: wanted });

@@ -40,6 +40,14 @@ export class RigDraft {
     return this.answer?.legs ?? [];
   }
 
+  // Its legs, each with its row and side; those that the server has not seen yet are the last.
+  placedLegs() {
+    const found = this.answer?.legs ?? [];
+    return this.legs.map(({ hip, foot }) => (
+      found.find((leg) => leg.hip === hip && leg.foot === foot) ?? { row: -1, side: 0 }
+    ));
+  }
+
   get spine() {
     const asked = this.asked.spine;
     if (asked && asked.every((node) => typeof node === "number")) return asked;

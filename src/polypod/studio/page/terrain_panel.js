@@ -16,6 +16,9 @@ const KEYS = {
 const LENGTH = { unit: "m", factor: 1, decimals: 3 };
 const MOST_SEED = 1e6;
 
+// A walk that begins anew would end the record.
+const STAYS = "The record goes on where it walks now. What is not seen of this ground lies where walks begin: Restart goes there.";
+
 export class TerrainPanel {
   constructor(store) {
     this.store = store;
@@ -118,8 +121,11 @@ export class TerrainPanel {
     this.taken = JSON.stringify(this.wanted());
     await store.edit(["terrain"], this.wanted());
     const now = store.document.terrain?.generator;
-    // What is recorded goes on; and flat ground is the same everywhere.
-    if (!now || now === before || store.tape.recording) return;
+    if (!now || now === before) return; // flat ground is the same everywhere
+    if (store.tape.recording) {
+      store.say(STAYS);
+      return;
+    }
     await store.send({ do: "restart" }).catch((refusal) => store.say(refusal.message));
   }
 
