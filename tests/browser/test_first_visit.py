@@ -6,6 +6,7 @@ import base64
 import io
 import json
 import struct
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from PIL import Image
 from polypod.morphology.builtin import build
 from studio.covered_rigs import MAGENTA, covered, framed_png
 
+BENCH = Path(__file__).parents[2] / "examples" / "scenes" / "bench.obj"
 LONG = 120.0  # s: a machine that has other things to do
 
 # How wide the pictures of all materials of skins are, 0 where there is none.
@@ -167,6 +169,8 @@ def test_a_studio_that_is_started_anew_is_taken_up_with(own_studio: Any) -> None
     drop_file(tab, "beast.glb", build("wolf").glb)
     judged(tab, "It can walk: 4 legs")
     walk(tab, "beast")
+    drop_file(tab, "bench.obj", BENCH.read_bytes())
+    tab.until(lambda: tab.document["obstacle"], "a mesh stands there")
     tab.open_panel("Body")
     tab.type_into("Speed in m/s", "0.5")
     tab.until(lambda: tab.document["command"]["speed"] == 0.5, "it is slower")

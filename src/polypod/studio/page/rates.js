@@ -45,7 +45,7 @@ export class Rates {
 
   refresh() {
     const { connected, drives } = this.store;
-    this.state.textContent = connected ? (drives ? "" : "watching") : "no connection";
+    this.state.textContent = connected ? (drives ? "" : "· watching") : "no connection";
     this.state.classList.toggle("lost", !connected);
     this.drive.hidden = !connected || drives;
   }

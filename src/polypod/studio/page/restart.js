@@ -5,6 +5,7 @@
 import { make, makeButton } from "/page/elements.js";
 import { giveAgain } from "/page/given_files.js";
 
+const LOST = "What you had here is back, but for the meshes and the ground of a scene's files: open that scene once more.";
 const TOKEN = /name="polypod-token" content="([\w-]+)"/;
 
 // Take the token that the studio has now. Rejects where there is no studio.
@@ -61,10 +62,11 @@ export class Restart {
     const { store, before } = this;
     this.back.disabled = true;
     try {
-      await giveAgain(store, before);
-      await store.send({ do: "open", document: before });
+      const found = await giveAgain(store, before);
+      await store.send({ do: "open", document: found });
       this.close();
-      store.say("What you had here is back.", true);
+      const whole = JSON.stringify(found) === JSON.stringify(before);
+      store.say(whole ? "What you had here is back." : LOST, whole);
     } catch (refusal) {
       store.say(refusal.message);
       this.refresh();

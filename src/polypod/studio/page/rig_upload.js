@@ -31,7 +31,7 @@ export class RigUpload {
     this.button.disabled = true;
     try {
       const answer = await sendFile(this.store, "/rig", file, this.bar);
-      keepFile(answer.rig, file);
+      keepFile(answer.rig, "/rig", file);
       this.taken(answer);
     } catch (error) {
       this.store.say(error.message);

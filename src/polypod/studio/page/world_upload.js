@@ -1,6 +1,7 @@
 // What the world takes from the user's disk: meshes to stand about, and scenes with their files.
 
 import { make, makeButton, saveAs } from "/page/elements.js";
+import { keepFile } from "/page/given_files.js";
 import { sendFile } from "/page/upload.js";
 
 const MOST = 64 * 2 ** 20; // bytes
@@ -48,6 +49,7 @@ export class WorldUpload {
     for (const [i, file] of files.entries()) {
       try {
         const { name, parts, ...mesh } = await this.send("/mesh", file);
+        keepFile(mesh.file, "/mesh", file);
         await this.put(this.obstacle(mesh), i === 0 ? place : null, name.replace(/\.\w+$/, ""));
         this.tell(name, parts, mesh);
       } catch (error) {
