@@ -313,3 +313,20 @@ def test_wheels_stay_where_they_are_when_the_circle_is_turned(tab: Any) -> None:
     assert apart(last[1], 0.5) < 0.01
     assert apart(last[2], 0.3) < 0.01
     assert last[3] == pytest.approx(0.5, abs=1e-3)
+
+
+def test_what_comes_into_view_while_time_stands_is_up_to_date(tab: Any) -> None:
+    settle(tab)
+    tab.open_panel("World")
+    tab.ask("polypod.send({do: 'clock', playing: false})")
+    tab.until(lambda: not tab.ask("polypod.clock.playing"), "time stands")
+    tab.page.reload()
+    ready = "Boolean(window.polypod?.document && polypod.creature && polypod.frame)"
+    tab.until(lambda: tab.ask(ready), "the page is there again")
+    tab.page.wait_for_timeout(500)
+    tab.open_panel("Gait")
+    tab.until(lambda: tab.box("Lifts at in %").input_value() != "", "numbers of a foot are shown")
+    tab.until(lambda: min(tab.page.evaluate(COLOURED, "canvas.footfalls")) > 0, "footfalls are")
+    sectors = "[...document.querySelectorAll('.wheel-swing')].map((one) => one.getAttribute('d'))"
+    tab.until(lambda: all(len(d or "") > 20 for d in tab.ask(sectors)), "disks are drawn")
+    assert len(tab.ask(sectors)) == 8

@@ -346,3 +346,42 @@ def test_modules_that_draw_by_hand(tab: Any) -> None:
           simplified([[0, 0], [1, 0.01], [2, 0]], 0.1).length,
           simplified([[0, 0], [1, 1], [2, 0]], 0.1).length])"""
     ) == [2, 3]
+
+
+# A ball whose triangles share no vertex, as skins with sharp edges have it, and how many edges of
+# its coarse skin have a triangle on one side alone.
+TORN = """
+async () => {
+  const { THREE } = await import("three");
+  const { COARSE, CRUDE, coarsened } = await import("/page/coarse.js");
+  const ball = new THREE.SphereGeometry(1, 48, 32).toNonIndexed();
+  ball.computeVertexNormals();
+  const count = ball.getAttribute("position").count;
+  const given = (data, wide) => ({ data, shape: [count, wide] });
+  const arrays = {
+    place: given(ball.getAttribute("position").array, 3),
+    normal: given(ball.getAttribute("normal").array, 3),
+    joint: given(new Uint16Array(4 * count), 4),
+    weight: given(Float32Array.from({ length: 4 * count }, (_, i) => (i % 4 ? 0 : 1)), 4),
+    colour: given(new Uint8Array(4 * count), 4),
+    triangles: { data: Uint32Array.from({ length: count }, (_, i) => i), shape: [count / 3, 3] },
+  };
+  return [COARSE, CRUDE].map((how) => {
+    const { triangles: { data, shape } } = coarsened(arrays, 1, how);
+    const sides = new Map();
+    for (let t = 0; t < data.length; t += 3) {
+      for (let i = 0; i < 3; i++) {
+        const edge = [data[t + i], data[t + ((i + 1) % 3)]].sort((a, b) => a - b).join(" ");
+        sides.set(edge, (sides.get(edge) ?? 0) + 1);
+      }
+    }
+    return [shape[0], [...sides.values()].filter((many) => many === 1).length];
+  });
+}
+"""
+
+
+def test_coarse_skins_of_sharp_edges_are_not_torn(tab: Any) -> None:
+    for triangles, torn in tab.page.evaluate(TORN):
+        assert 12 <= triangles < 0.6 * 2976
+        assert torn == 0

@@ -1,5 +1,7 @@
 // A canvas as sharp as the screen, and colours out of the style sheet.
 
+import { whenShown } from "/page/switches.js";
+
 // Fit a canvas to its place on the page; returns a context in CSS pixels, with its size.
 export function fit(canvas) {
   const width = Math.max(Math.floor(canvas.clientWidth), 1);
@@ -51,10 +53,13 @@ export function redraw(rate, draw) {
     if (due) draw();
     due = false;
   };
-  return () => {
+  const ask = () => {
     due = true;
     if (!timer) timer = requestAnimationFrame(go);
   };
+  // What was drawn while nobody saw it may have been left out.
+  whenShown(() => { if (last > -Infinity) ask(); });
+  return ask;
 }
 
 // A text cut to a width, with dots.

@@ -6,14 +6,17 @@
 export const COARSE = { cells: 7, facing: octant };
 export const CRUDE = { cells: 2.5, facing: side };
 
+const SAME = 1e-4; // of the radius: vertices so close to each other are at one place
+
 // From the arrays of a skin, the same arrays with fewer vertices.
 export function coarsened(arrays, radius, { cells, facing } = COARSE) {
   const { place, normal, joint, weight, colour, triangles } = arrays;
   const cell = radius / cells;
+  const ways = waysOfPlaces(place.data, normal.data, radius * SAME);
   const found = new Map();
   const into = new Uint32Array(place.shape[0]);
   for (let v = 0; v < place.shape[0]; v++) {
-    const key = keyOf(place.data, normal.data, joint.data, weight.data, v, cell, facing);
+    const key = keyOf(place.data, ways, joint.data, weight.data, v, cell, facing);
     if (!found.has(key)) found.set(key, found.size);
     into[v] = found.get(key);
   }
@@ -46,6 +49,22 @@ export function coarsened(arrays, radius, { cells, facing } = COARSE) {
   return out;
 }
 
+// Where vertices face, those of one place all alike: edges that are drawn sharp, or lie between parts
+// of a picture, have a vertex for each side, and a skin whose sides went apart there would be torn.
+function waysOfPlaces(place, normal, same) {
+  const sums = new Map();
+  const keys = Array.from({ length: place.length / 3 }, (_, v) => (
+    Array.from(place.subarray(3 * v, 3 * v + 3), (at) => Math.round(at / same)).join(" ")
+  ));
+  keys.forEach((key, v) => {
+    const sum = sums.get(key) ?? [0, 0, 0];
+    for (let i = 0; i < 3; i++) sum[i] += normal[3 * v + i];
+    sums.set(key, sum);
+  });
+  // Rounded: what faces along an axis is on the same side of it on both sides of the creature.
+  return Float32Array.from(keys.flatMap((key) => sums.get(key).map((sum) => Number(sum.toFixed(3)))));
+}
+
 function octant(x, y, z) {
   return (x > 0 ? 1 : 0) | (y > 0 ? 2 : 0) | (z > 0 ? 4 : 0);
 }
@@ -59,7 +78,8 @@ function keyOf(place, normal, joint, weight, v, cell, facing) {
   let strongest = 4 * v;
   for (let n = 4 * v + 1; n < 4 * v + 4; n++) if (weight[n] > weight[strongest]) strongest = n;
   const way = facing(normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]);
-  const [x, y, z] = [0, 1, 2].map((i) => Math.floor(place[3 * v + i] / cell));
+  // What lies on a cell's side to within rounding, as a trunk's middle does, is in one of the two.
+  const [x, y, z] = [0, 1, 2].map((i) => Math.floor(place[3 * v + i] / cell + 0.001));
   return `${x} ${y} ${z} ${joint[strongest]} ${way}`;
 }
 

@@ -3,7 +3,7 @@
 import { disksOf, isDrawn, rounded } from "/page/disks.js";
 import { Figure } from "/page/figure.js";
 import { FootChoice } from "/page/foot_choice.js";
-import { shown } from "/page/switches.js";
+import { shown, whenShown } from "/page/switches.js";
 
 export class FootNumbers extends FootChoice {
   constructor(store, editor, mark) {
@@ -14,7 +14,9 @@ export class FootNumbers extends FootChoice {
       this.makeFigure("Lands at", ({ start, extent }) => start + extent, (phase) => editor.put(this.foot, "finish", phase)),
       this.makeFigure("Stands for", ({ extent }) => 1 - extent, (duty) => this.putDuty(duty)),
     ]);
-    store.on("frame", () => { if (!isDrawn(store) && shown(this.element)) this.refresh(); });
+    const follow = () => { if (!isDrawn(store) && shown(this.element)) this.refresh(); };
+    store.on("frame", follow);
+    whenShown(follow);
   }
 
   // `of` gives the number out of a foot's disk. Its default is what it was before it was drawn anew.

@@ -5,7 +5,7 @@ import { FootNumbers } from "/page/foot_numbers.js";
 import { Footfalls } from "/page/footfalls.js";
 import { historyOf } from "/page/history.js";
 import { documentSlider } from "/page/slider.js";
-import { shown, Switch } from "/page/switches.js";
+import { shown, Switch, whenShown } from "/page/switches.js";
 import { VerdictView } from "/page/verdict.js";
 import { Wheels } from "/page/wheels.js";
 import { GaitEditor } from "/page/wheels_edit.js";
@@ -86,6 +86,7 @@ function makeSliders(store, element) {
   };
   store.on("document", refresh);
   store.on("creature", refresh);
+  whenShown(refresh);
   store.on("frame", () => { if (performance.now() - last > LIVE && shown(element)) refresh(); });
   return sliders;
 }

@@ -6,7 +6,7 @@ import { Figure } from "/page/figure.js";
 import { anglesOf } from "/page/joint_angles.js";
 import { LimitDial } from "/page/limit_dial.js";
 import { LimitEditor } from "/page/limit_edit.js";
-import { shown, Switch } from "/page/switches.js";
+import { shown, Switch, whenShown } from "/page/switches.js";
 
 const LIVE = 80; // ms between two looks at how a joint is turned
 const SPINE = "#d5dde5";
@@ -35,6 +35,7 @@ export class LimitPanel {
     );
     for (const kind of ["limits", "document"]) store.on(kind, () => this.refresh());
     store.on("frame", (frame) => this.follow(frame));
+    whenShown(() => { if (store.frame) this.follow(store.frame); });
   }
 
   // Show the creature that walks, if it is the one that is looked at.

@@ -1,4 +1,4 @@
-// Switches that this computer remembers, and whether anybody can see an element.
+// Switches that this computer remembers, and whether anybody can see an element, or sees another now.
 
 import { makeButton } from "/page/elements.js";
 
@@ -20,3 +20,18 @@ export class Switch {
 export function shown(element) {
   return !document.hidden && element.getClientRects().length > 0;
 }
+
+const lookers = [];
+
+// Call `look` whenever something else of the page may have come into view: while time stands nothing
+// else would bring what is shown there up to date.
+export function whenShown(look) {
+  lookers.push(look);
+}
+
+export function tellShown() {
+  for (const look of lookers) look();
+}
+
+document.addEventListener("toggle", tellShown, true); // a section; that event rises to nobody
+document.addEventListener("visibilitychange", tellShown);

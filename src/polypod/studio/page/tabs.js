@@ -1,5 +1,7 @@
 // Tabs as the WAI-ARIA practice has them: arrow keys move along, the shown panel is labelled.
 
+import { tellShown } from "/page/switches.js";
+
 const KEPT = "polypod.tab";
 
 // `panels` are [title, mount]; each is mounted once, and shown when its tab is chosen.
@@ -38,6 +40,7 @@ export function mountTabs(list, page, panels) {
       panel.hidden = i !== chosen;
     });
     localStorage.setItem(KEPT, tabs[chosen].title);
+    tellShown();
   }
 
   const kept = tabs.findIndex(({ title }) => title === localStorage.getItem(KEPT));
