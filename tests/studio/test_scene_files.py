@@ -348,3 +348,26 @@ def test_a_scene_of_another_page_or_far_too_large_ground_is_refused(
 def test_a_document_from_the_page_opens_a_scene_without_files(files: WorldFiles) -> None:
     document = document_of(PLAIN, "s.toml", default_document(), GivenRigs(), files)
     assert document["terrain"] == {"generator": "hills"}
+
+
+def test_a_creature_file_brings_its_creature_and_leaves_the_world(files: WorldFiles) -> None:
+    rigs = GivenRigs()
+    before = judged(default_document())
+    before["obstacle"] = [{"shape": "box", "size": [1.0, 0.1, 1.0], "position": [0.0, 0.05, 3.0]}]
+    text = b'rig = "beast.glb"\nheight = 0.5\n'
+    try:
+        with pytest.raises(PolypodError, match=r"beast\.glb"):
+            document_of(text, "creature.toml", before, rigs, files)
+        rigs.take(build("wolf").glb, "beast.glb")
+        document = judged(document_of(text, "creature.toml", before, rigs, files))
+        assert document["obstacle"] == before["obstacle"]
+        own = load_rig(rigs.find(rigs.named("beast.glb")))
+        small = load_rig(rigs.find(document["creature"]["rig"]))
+        assert small.legs.length[0] == pytest.approx(
+            0.5 * own.legs.length[0] / rigs.judge({"rig": rigs.named("beast.glb")})["height"]
+        )
+        for wrong in (b'rig = "../beast.glb"', b"rig = 3", b'rig = "ant"\nwings = 2'):
+            with pytest.raises(PolypodError):
+                document_of(wrong, "creature.toml", before, rigs, files)
+    finally:
+        rigs.close()

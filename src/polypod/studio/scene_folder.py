@@ -49,6 +49,14 @@ def parsed(data: bytes) -> dict[str, Any]:
         raise SceneError(f"{PLACE} is no valid TOML ({str(error)[:120]})") from None
 
 
+def is_creature(data: bytes) -> bool:
+    """Return whether this is a creature file, and no scene."""
+    try:
+        return "rig" in parsed(data)
+    except SceneError:
+        return False
+
+
 def named_files(values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield what the files of a scene are for, and their names; tiles by their pattern."""
     terrain = values.get("terrain")

@@ -15,6 +15,8 @@ from typing import Any
 from polypod.environment.scene_values import shown
 from polypod.errors import PolypodError, SceneError, SettingError, choices
 from polypod.gait.library import make_gait, names
+from polypod.morphology.builtin import NAMES as BUILT_IN
+from polypod.morphology.creature import read_creature
 from polypod.morphology.load import load_rig
 from polypod.studio.asked import disks_of
 from polypod.studio.document import CREATURE, Document
@@ -26,12 +28,17 @@ from polypod.studio.scene_folder import (
     ZIP,
     MissingFilesError,
     confine,
+    is_creature,
     lay_out,
     pack,
     parsed,
     unpack,
 )
+from polypod.studio.toml_text import value_text
 from polypod.studio.world_files import WorldFiles
+
+# What of a command has a default of each creature's own.
+OWN = ("speed", "step_height", "body_height", "period", "duty")
 
 
 def document_of(
@@ -58,6 +65,9 @@ def document_of(
             scene = unpack(data, folder)
         else:
             title = clean_name(name, ".toml")
+            if is_creature(data):
+                document = _with_creature(data, title, before, folder, rigs, files)
+                return document
             scene = lay_out(data, title, folder, files.waiting.files, rigs.has)
             files.waiting.let_go()
         document = read_document(scene, before, rigs, files, own=True)
@@ -71,6 +81,29 @@ def document_of(
         if document is None or not _reads_on(document, rigs, folder):
             shutil.rmtree(folder, ignore_errors=True)
     return document
+
+
+def _with_creature(
+    data: bytes, title: str, before: Document, folder: Path, rigs: GivenRigs, files: WorldFiles
+) -> Document:
+    """Return a document in which the creature of a creature file walks; the world stays.
+
+    Raises:
+        PolypodError: it is none; MissingFilesError: its rig is not there.
+    """
+    rig = parsed(data)["rig"]
+    wanted = f"[[creature]]\nrig = {value_text(rig)}\n" if isinstance(rig, str) else ""
+    lay_out(wanted.encode(), "rig.toml", folder, files.waiting.files, rigs.has)
+    known = rigs.named(Path(str(rig)).name)
+    if known is not None and known not in BUILT_IN and not (folder / rig).is_file():
+        (folder / rig).parent.mkdir(parents=True, exist_ok=True)
+        (folder / rig).write_bytes(Path(rigs.find(known)).read_bytes())
+    (folder / title).write_bytes(data)
+    read_creature(folder / title)
+    files.waiting.let_go()
+    creature = {"rig": rigs.point_to(folder / title), **dict.fromkeys(CREATURE[1:])}
+    command = {**before["command"], **dict.fromkeys(OWN)}
+    return {**before, "creature": creature, "command": command, "gait": None, "spacing": []}
 
 
 def read_document(

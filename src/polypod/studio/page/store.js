@@ -89,6 +89,7 @@ export class Store {
   async fetch(route, options = {}) {
     const headers = { ...(options.headers ?? {}), "X-Polypod-Token": this.token };
     const answer = await fetch(route, { ...options, headers });
+    if (answer.status === 204) throw new Error("it is there no more");
     if (answer.ok) return answer;
     let why = `${answer.status} ${answer.statusText}`;
     try {
