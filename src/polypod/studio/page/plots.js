@@ -1,6 +1,7 @@
 // Draws lanes of plots and footfalls against time on one canvas.
 
 import { cut, palette, roundStep } from "/page/canvas.js";
+import { foreToHind } from "/page/foot_order.js";
 import { spanOf } from "/page/lanes.js";
 
 export const GUTTER = 128; // px to the left, for names and figures
@@ -101,9 +102,8 @@ function drawSpan(context, box, lane, least, most) {
 }
 
 function drawStances(context, scale, box, { feet, samples }) {
-  const order = feet.map((_, k) => k).sort((a, b) => feet[b].row - feet[a].row || feet[b].side - feet[a].side);
   const row = box.height / Math.max(feet.length, 1);
-  order.forEach((k, n) => {
+  foreToHind(feet).forEach((k, n) => {
     context.fillStyle = feet[k].colour;
     let from = null;
     samples.forEach(({ x, sample, gap }, i) => {
