@@ -96,7 +96,7 @@ def test_a_dragged_limit_is_obeyed_mirrored_saved_and_undone(tab: Any) -> None:
     assert low - 0.01 <= min(angles) < max(angles) <= high + 0.01
     tab.keep("limits-2-dragged")
     name, saved = tab.download(tab.button("Save as creature file").click)
-    assert name == "creature.toml"
+    assert name == "spider.toml"
     kept = tomllib.loads(saved.decode())["limit"]
     assert set(kept) == {LEFT, RIGHT}
     assert [math.degrees(angle) for angle in kept[LEFT]["bend"]] == pytest.approx([low, high])

@@ -270,7 +270,8 @@ class RigPanel {
   async saveCreature() {
     try {
       const answer = await this.store.fetchSettled("/export/creature.toml");
-      saveAs(await answer.blob(), "creature.toml");
+      // A creature is called as its file is.
+      saveAs(await answer.blob(), `${nameOfRig(this.draft.rig).replace(/\.\w+$/, "")}.toml`);
     } catch (error) {
       this.store.say(error.message);
     }
