@@ -56,6 +56,7 @@ class Conductor:
         self._tell = tell
         self._files_told = files_message(self)
         self.newest = b""  # the frame sent last
+        self._unsent = False  # the newest frame was made, but not sent: there were too many
         self.urgent = False  # something was asked for: the next frame is sent whatever it has
         self._judge = Judge()
         self._verdict = stage.question().answer()
@@ -110,6 +111,8 @@ class Conductor:
     def rest(self) -> None:
         """Do what is to be done while time stands still."""
         self._tell_verdict()
+        if self._unsent and self.scrubbed is None:
+            self._tell_newest()
         self._send_overlays()
 
     def _tell_verdict(self) -> None:
@@ -138,9 +141,13 @@ class Conductor:
                 if len(tape.frames) % 15 == 1:
                     self.say(tape_message(self))
         every = 1 + len(frame) * RATE // MOST_SENT
+        self._unsent = True
         if dt is None or self.urgent or self.number % every == 0:
-            self.urgent = False
-            self._tell(Telling("frame", frame))
+            self._tell_newest()
+
+    def _tell_newest(self) -> None:
+        self.urgent = self._unsent = False
+        self._tell(Telling("frame", self.newest))
 
     def watch_overlays(self, overlays: frozenset[str]) -> None:
         """Send these overlays from now on."""
