@@ -7,17 +7,43 @@ from collections.abc import Callable
 import numpy as np
 
 from polypod.herd import Herd
+from polypod.morphology.types import FloatArray, IntArray
 from polypod.report.record import Recorder, Recording
 from polypod.world import World
 
 
 def add_frame(recorder: Recorder, world: World, herd: Herd, creature: int) -> None:
     """Keep what a creature of a world does now."""
+    environment = world.environment
+    support = herd.state.foot_support[creature]
+    places, rotations = environment.places(), environment.rotations
+    add_state(recorder, world.time, herd, creature, support, places, rotations)
+
+
+def add_state(
+    recorder: Recorder,
+    time: float,
+    herd: Herd,
+    creature: int,
+    support: IntArray,
+    obstacle_position: FloatArray,
+    obstacle_rotation: FloatArray,
+) -> None:
+    """Keep what a creature does now, beside obstacles that are numbered in any way.
+
+    Args:
+        recorder: the creature's.
+        time: s.
+        herd: whose creature it is.
+        creature: row of the herd.
+        support: [K] number of the obstacle under each foot, -1: the ground.
+        obstacle_position: [O, 3] m, world.
+        obstacle_rotation: [O, 4] quaternions.
+    """
     state = herd.state
     standing = ~state.swinging[creature]
-    environment = world.environment
     recorder.add(
-        world.time,
+        time,
         state.position[creature],
         state.rotation[creature],
         state.joint_position[creature],
@@ -25,9 +51,9 @@ def add_frame(recorder: Recorder, world: World, herd: Herd, creature: int) -> No
         state.foot_reached[creature],
         state.foot[creature],
         standing,
-        np.where(standing, state.foot_support[creature], -1),
-        environment.places(),
-        environment.rotations,
+        np.where(standing, support, -1),
+        obstacle_position,
+        obstacle_rotation,
         int(state.activity[creature]),
         herd.gait_name[creature],
     )

@@ -224,6 +224,14 @@ def test_large_frames_are_not_all_sent_but_all_recorded(monkeypatch: pytest.Monk
     before = sent()
     world.walk(12)
     assert sent() == before + 4, "every third"
+    # Who stops time sees where everything came to.
+    for _ in range(3):
+        world.walk(1)
+        world.conductor.rest()
+        frames = [one.content for one in world.told if one.kind == "frame"]
+        assert frames[-1] == world.conductor.newest
+        world.conductor.rest()
+        assert sent() == len(frames), "once"
     # What follows from an order is sent at once.
     for speed in (0.1, 0.2, 0.3):
         world.order(do="edit", at=["command", "speed"], to=speed)
@@ -232,5 +240,5 @@ def test_large_frames_are_not_all_sent_but_all_recorded(monkeypatch: pytest.Monk
         assert sent() == before + 1
     tape = world.conductor.tape
     assert tape is not None
-    assert len(tape.frames) == 28
-    assert len(tape.walk(0).recording.time) == 28
+    assert len(tape.frames) == 31
+    assert len(tape.walk(0).recording.time) == 31

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from polypod.errors import SettingError
 from polypod.herd import Herd
+from polypod.recording import add_state
 from polypod.report.arrays import FloatArray
 from polypod.report.record import Recorder, Recording
 from polypod.world import World
@@ -138,7 +139,10 @@ class Tape:
         self.seconds = self.world.time - self.start
         column_of = np.append(column, -1)  # the ground's is -1 too
         for kind, c, recorder in self._recorders:
-            _add(recorder, self.world.time, self._herds[kind], c, column_of)
+            herd = self._herds[kind]
+            support = column_of[herd.state.foot_support[c]]
+            # Obstacles are kept once for all creatures.
+            add_state(recorder, self.world.time, herd, c, support, NO_PLACES, NO_TURNS)
 
     def shown(self, index: int, number: int) -> bytes:
         """Return the bytes of a frame of the tape, sent as frame `number`.
@@ -201,34 +205,3 @@ class Tape:
 
 def _shapes(obstacles: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     return [{key: one[key] for key in one if key not in WHERE} for one in obstacles]
-
-
-def _add(
-    recorder: Recorder, time: float, herd: Herd, creature: int, column: NDArray[np.int64]
-) -> None:
-    """Keep what a creature does now; obstacles are kept once for all creatures.
-
-    Args:
-        recorder: the creature's.
-        time: s.
-        herd: whose creature it is.
-        creature: row of the herd.
-        column: [O + 1] of each obstacle, and -1 for the ground, which is numbered -1.
-    """
-    state = herd.state
-    standing = ~state.swinging[creature]
-    recorder.add(
-        time,
-        state.position[creature],
-        state.rotation[creature],
-        state.joint_position[creature],
-        state.joint_rotation[creature],
-        state.foot_reached[creature],
-        state.foot[creature],
-        standing,
-        np.where(standing, column[state.foot_support[creature]], -1),
-        NO_PLACES,
-        NO_TURNS,
-        int(state.activity[creature]),
-        herd.gait_name[creature],
-    )
