@@ -201,3 +201,18 @@ def test_small_fast_walkers_do_not_stop_and_go_at_film_rates(
         slowest = min(slowest, float(herd.state.speed[0]))
     assert herd.state.position[0, 2] - begun > 0.95 * 4.0 * speed
     assert slowest > 0.75 * speed
+
+
+@pytest.mark.parametrize("speed", [0.9, 1.2, 1.5, 1.8, 2.4])
+def test_a_fast_spider_keeps_an_even_speed(speed: float) -> None:
+    """Feet that land where those before them still stand would hold the body back each cycle."""
+    world, herd = start("spider", 0.5)
+    walk(herd, world, 1.0, 60.0)
+    walk(herd, world, 1.5, 60.0, speed=speed)  # it gains speed, and keeps it from then on
+    places = np.empty((481, 3))
+    for place in places:
+        place[:] = herd.state.position[0]
+        world.step(1.0 / 60.0)
+    of_frames = np.linalg.norm(np.diff(places, axis=0), axis=1) * 60.0
+    assert of_frames.min() > 0.95 * speed
+    assert of_frames.max() < 1.05 * speed
