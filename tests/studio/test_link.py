@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import struct
 import time
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 from starlette.websockets import WebSocketDisconnect
 
 from polypod.studio.outbox import Outbox, Telling
-from studio.server import Served
+from studio.server import HOME, TOKEN, Served
 
 
 def until(true: Callable[[], bool]) -> None:
@@ -236,6 +237,34 @@ def test_there_is_a_most_of_tabs(studio: Served, monkeypatch: Any) -> None:
     with studio.tab(), pytest.raises(WebSocketDisconnect) as closed, studio.tab():
         pass
     assert closed.value.code == 1013
+
+
+@pytest.mark.parametrize("taken", [0, 1, 2], ids=["greeting", "its end", "frame"])
+def test_a_server_that_closes_a_connection_itself_is_no_fault(studio: Served, taken: int) -> None:
+    """As uvicorn does when it ends: it says so of what is sent later, before any disconnect."""
+    studio.runner.last = struct.pack("<II", 1, 7)
+    scope = {
+        "type": "websocket", "path": "/link", "query_string": f"token={TOKEN}".encode(),
+        "headers": [(b"host", HOME[7:].encode()), (b"origin", HOME.encode())],
+        "subprotocols": [], "extensions": {},
+    }  # fmt: skip
+    sent: list[str] = []
+
+    async def receive() -> dict[str, Any]:
+        if not sent:
+            return {"type": "websocket.connect"}
+        await asyncio.Event().wait()
+        raise AssertionError("it never ends")
+
+    async def send(message: Any) -> None:
+        if len(sent) > taken:
+            raise RuntimeError("Unexpected ASGI message, after sending 'websocket.close'.")
+        sent.append(message["type"])
+
+    asyncio.run(studio.app(scope, receive, send))
+    assert sent == ["websocket.accept", *(taken * ["websocket.send"])]
+    with studio.tab() as tab:
+        assert tab.drives, "who is gone drives no more"
 
 
 TELLINGS = st.lists(

@@ -10,8 +10,8 @@ from __future__ import annotations
 import asyncio
 import threading
 import time
-from collections.abc import Awaitable, Callable
-from contextlib import suppress
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from anyio import create_task_group, to_thread
@@ -27,6 +27,7 @@ from polypod.studio.tab import MOST_ORDERS, Tab, as_json
 SIZES = {do: LARGEST_DOCUMENT if do == "open" else LARGEST_ORDER for do in ORDERS}
 MOST_TABS = 16
 
+GOING_AWAY = 1001
 POLICY_VIOLATION = 1008
 TRY_AGAIN_LATER = 1013
 
@@ -84,7 +85,7 @@ class Hub:
             # Whatever is told while the greeting is put together waits behind it.
             for message in await to_thread.run_sync(self.runner.greeting):
                 telling = self._for(tab, Telling("text", message))
-                await websocket.send_text(as_json(telling.content))
+                await _send(websocket, as_json(telling.content))
             async with create_task_group() as group:
 
                 async def both_ways(work: Callable[[WebSocket, Tab], Awaitable[None]]) -> None:
@@ -135,11 +136,9 @@ class Hub:
     async def _write(self, websocket: WebSocket, tab: Tab) -> None:
         """Send what waits, until the connection is to be closed or is lost."""
         while (content := await tab.next()) is not None:
-            if isinstance(content, str):
-                await websocket.send_text(content)
-            else:
-                await websocket.send_bytes(content)
-        await websocket.close(*tab.closing)
+            await _send(websocket, content)
+        with _gone_if_closed():
+            await websocket.close(*tab.closing)
 
     async def _read(self, websocket: WebSocket, tab: Tab) -> None:
         """Take what the page sends, until it leaves or sends too much."""
@@ -204,6 +203,27 @@ class Hub:
                 loop.call_soon_threadsafe(answered, why)
 
         self.runner.order({key: order[key] for key in order if key != "id"}, answer)
+
+
+@contextmanager
+def _gone_if_closed() -> Iterator[None]:
+    """Take a connection that the server has closed already as one that is lost.
+
+    When the studio ends, or a page does not answer, uvicorn closes connections of itself; who sends
+    before hearing of it gets a RuntimeError, not a WebSocketDisconnect.
+    """
+    try:
+        yield
+    except RuntimeError as closed:
+        raise WebSocketDisconnect(GOING_AWAY) from closed
+
+
+async def _send(websocket: WebSocket, content: str | bytes) -> None:
+    with _gone_if_closed():
+        if isinstance(content, str):
+            await websocket.send_text(content)
+        else:
+            await websocket.send_bytes(content)
 
 
 def _nothing() -> None:
