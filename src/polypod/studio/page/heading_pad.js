@@ -3,7 +3,7 @@
 
 import { make, makeSvg } from "/page/elements.js";
 import { Gesture } from "/page/gesture.js";
-import { MOVE } from "/page/moves.js";
+import { onDrag } from "/page/moves.js";
 import { NumberBox } from "/page/number_box.js";
 import { headFor, headingOf, spokenDirection, turnBy } from "/page/steer.js";
 
@@ -54,20 +54,18 @@ export class HeadingPad {
 
   listen() {
     const pad = this.pad;
-    const head = (event) => {
+    const head = (_, event) => {
       const box = pad.getBoundingClientRect();
       const left = box.left + box.width / 2 - event.clientX;
       const ahead = box.top + box.height / 2 - event.clientY;
       if (Math.hypot(left, ahead) > 3) headFor(this.store, this.gesture, Math.atan2(left, ahead));
     };
-    pad.addEventListener("pointerdown", (event) => {
-      pad.setPointerCapture(event.pointerId);
+    const take = (event) => {
       this.gesture.begin();
-      head(event);
-    });
-    pad.addEventListener(MOVE, (event) => {
-      if (pad.hasPointerCapture(event.pointerId)) head(event);
-    });
+      head(null, event);
+      return "the arrow";
+    };
+    onDrag(pad, { take, follow: head });
     pad.addEventListener("keydown", (event) => this.key(event));
   }
 

@@ -3,7 +3,7 @@
 
 import { make, makeSvg } from "/page/elements.js";
 import { movedEnd } from "/page/limit_edit.js";
-import { MOVE } from "/page/moves.js";
+import { onDrag } from "/page/moves.js";
 
 const RADIUS = 40;
 const RIM = 47;
@@ -92,31 +92,24 @@ export class LimitDial {
 
   bind(end) {
     const handle = this.handles[end];
-    let drag = null;
-    handle.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      event.preventDefault();
-      handle.focus({ preventScroll: true });
-      handle.setPointerCapture(event.pointerId);
-      this.editor.begin();
-      drag = { last: this.angleAt(event), angle: this.turn[end] };
-    });
-    handle.addEventListener(MOVE, (event) => {
-      if (!drag) return;
-      // Turns add up, so that a hand that goes round past the foot of the dial goes on.
-      const angle = this.angleAt(event);
-      const step = angle - drag.last;
-      drag.angle += (step - 2 * Math.PI * Math.round(step / (2 * Math.PI))) / this.zoom;
-      drag.last = angle;
-      this.move(end, drag.angle, event.altKey);
-    });
-    for (const kind of ["pointerup", "pointercancel"]) {
-      handle.addEventListener(kind, () => {
-        drag = null;
+    onDrag(handle, {
+      take: (event) => {
+        this.editor.begin();
+        return { last: this.angleAt(event), angle: this.turn[end] };
+      },
+      follow: (drag, event) => {
+        // Turns add up, so that a hand that goes round past the foot of the dial goes on.
+        const angle = this.angleAt(event);
+        const step = angle - drag.last;
+        drag.angle += (step - 2 * Math.PI * Math.round(step / (2 * Math.PI))) / this.zoom;
+        drag.last = angle;
+        this.move(end, drag.angle, event.altKey);
+      },
+      release: () => {
         this.asked = null;
         this.show(this.turn);
-      });
-    }
+      },
+    });
     handle.addEventListener("keydown", (event) => this.key(event, end));
     handle.addEventListener("dblclick", () => this.reset());
   }

@@ -2,7 +2,7 @@
 
 import { make } from "/page/elements.js";
 import { tapeRate } from "/page/history.js";
-import { MOVE } from "/page/moves.js";
+import { onDrag } from "/page/moves.js";
 
 const PATIENCE = 1000; // ms for which the next stroke goes on from where the last one is to lead
 
@@ -77,21 +77,16 @@ export class Scrubber {
 
   // `share` of an element's width from `gutter` on, as a drag on it.
   bind(element, gutter, enabled) {
-    let held = false;
-    const follow = (event) => {
+    const follow = (_, event) => {
       const box = element.getBoundingClientRect();
       this.go(((event.clientX - box.left - gutter) / (box.width - gutter)) * this.last);
     };
-    element.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0 || !enabled()) return;
-      event.preventDefault();
-      held = true;
-      element.setPointerCapture(event.pointerId);
-      this.element.focus({ preventScroll: true });
-      follow(event);
-    });
-    element.addEventListener(MOVE, (event) => { if (held) follow(event); });
-    for (const kind of ["pointerup", "pointercancel"]) element.addEventListener(kind, () => { held = false; });
+    const take = (event) => {
+      if (!enabled()) return null;
+      follow(null, event);
+      return "the knob";
+    };
+    onDrag(element, { take, follow, focused: this.element });
   }
 
   show() {

@@ -1,7 +1,7 @@
 // Hands on the feet: pointer and arrow keys move their preferred places.
 
 import { Gesture } from "/page/gesture.js";
-import { MOVE } from "/page/moves.js";
+import { onDrag } from "/page/moves.js";
 import { shiftedSpacing, shiftOf } from "/page/spacing.js";
 
 const KEY_STEP = 0.01; // leg lengths
@@ -64,20 +64,13 @@ export class SpacingEditor {
 
   // `place(event)` is the pointer's [left, forward], m.
   bindPointer(handle, k, place) {
-    let drag = null;
-    handle.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      event.preventDefault();
-      handle.focus({ preventScroll: true });
-      handle.setPointerCapture(event.pointerId);
-      drag = { begun: this.begin(), from: place(event) };
+    onDrag(handle, {
+      take: (event) => ({ begun: this.begin(), from: place(event) }),
+      follow: ({ begun, from }, event) => {
+        const [left, forward] = place(event);
+        this.shift(begun, k, [left - from[0], forward - from[1]]);
+      },
     });
-    handle.addEventListener(MOVE, (event) => {
-      if (!drag) return;
-      const [left, forward] = place(event);
-      this.shift(drag.begun, k, [left - drag.from[0], forward - drag.from[1]]);
-    });
-    for (const kind of ["pointerup", "pointercancel"]) handle.addEventListener(kind, () => { drag = null; });
     handle.addEventListener("dblclick", () => this.put(k, [0, 0]));
   }
 }

@@ -2,7 +2,7 @@
 
 import { disksOf, eventsOf, isDrawn, partnerOf, shiftedDisks, shortWay, snappedShift, wrap } from "/page/disks.js";
 import { Gesture } from "/page/gesture.js";
-import { MOVE } from "/page/moves.js";
+import { onDrag } from "/page/moves.js";
 
 const DRAWN = "edited"; // what a gait is called that was changed by hand
 const PAUSE = 900; // ms between two key strokes that are still one gesture
@@ -92,38 +92,31 @@ export function bindWheel(wheel, editor) {
 }
 
 function bindPointer(wheel, part, handle, editor) {
-  let drag = null;
   const phaseAt = (event) => {
     const box = wheel.picture.getBoundingClientRect();
     const x = event.clientX - box.left - box.width / 2;
     const y = event.clientY - box.top - box.height / 2;
     return Math.atan2(x, -y) / (2 * Math.PI);
   };
-  handle.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    const grip = editor.begin(wheel.index);
-    if (!grip) return;
-    event.preventDefault();
-    handle.focus({ preventScroll: true });
-    handle.setPointerCapture(event.pointerId);
-    drag = { grip, last: phaseAt(event), turned: 0 };
-    const { feet } = editor.store.creature;
-    wheel.showEvents(editor.events(grip).map(({ phase, foot }) => ({ phase, colour: feet[foot].colour })));
-    wheel.element.classList.add("held");
+  onDrag(handle, {
+    take: (event) => {
+      const grip = editor.begin(wheel.index);
+      if (!grip) return null;
+      const { feet } = editor.store.creature;
+      wheel.showEvents(editor.events(grip).map(({ phase, foot }) => ({ phase, colour: feet[foot].colour })));
+      wheel.element.classList.add("held");
+      return { grip, last: phaseAt(event), turned: 0 };
+    },
+    follow: (drag, event) => {
+      const phase = phaseAt(event);
+      // Turns add up, so that a hand that goes round past the top goes on.
+      drag.turned += shortWay(phase - drag.last);
+      drag.last = phase;
+      editor.drag(drag.grip, part, drag.turned, event.altKey);
+    },
+    release: () => {
+      wheel.showEvents([]);
+      wheel.element.classList.remove("held");
+    },
   });
-  handle.addEventListener(MOVE, (event) => {
-    if (!drag) return;
-    const phase = phaseAt(event);
-    // Turns add up, so that a hand that goes round past the top goes on.
-    drag.turned += shortWay(phase - drag.last);
-    drag.last = phase;
-    editor.drag(drag.grip, part, drag.turned, event.altKey);
-  });
-  const end = () => {
-    drag = null;
-    wheel.showEvents([]);
-    wheel.element.classList.remove("held");
-  };
-  handle.addEventListener("pointerup", end);
-  handle.addEventListener("pointercancel", end);
 }
