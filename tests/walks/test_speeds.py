@@ -216,3 +216,26 @@ def test_a_fast_spider_keeps_an_even_speed(speed: float) -> None:
     of_frames = np.linalg.norm(np.diff(places, axis=0), axis=1) * 60.0
     assert of_frames.min() > 0.95 * speed
     assert of_frames.max() < 1.05 * speed
+
+
+@pytest.mark.parametrize("kind", ["wolf", "biped"])
+@pytest.mark.parametrize("begun", range(5))
+def test_a_change_of_gait_holds_no_body_back(kind: str, begun: int) -> None:
+    """Feet that swung meanwhile leave before their legs are at their ends, and land in turn."""
+    world, herd = start(kind, 0.0)
+    unit = math.sqrt(GRAVITY * herd.tables.leg_length)
+    walk(herd, world, 2.0 + 0.12 * begun, 60.0, speed=0.3 * unit)
+    herd.command.speed = 1.2 * unit
+    worst, held, before = 0.0, 0, float(herd.state.speed[0])
+    for _ in range(180):
+        place = herd.state.position[0].copy()
+        world.step(1.0 / 60.0)
+        way = (herd.state.position[0] - place)[[0, 2]]
+        speed = float(herd.state.speed[0])
+        short = 0.5 * (before + speed) - 60.0 * float(np.linalg.norm(way))
+        before = speed
+        worst = max(worst, short / (1.2 * unit))
+        held += short > 0.25 * 1.2 * unit
+    assert herd.gait_name[0] == ("trot" if kind == "wolf" else "run")
+    assert worst < 0.5
+    assert held <= 3

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from polypod.body.push import caught_at, is_pushed, load_deflection
+from polypod.body.reach import shift_as_it_is
 from polypod.compute import kernel
 from polypod.controller.errand import Errand
 from polypod.controller.feet import preferred_footprint
@@ -17,7 +18,8 @@ from polypod.controller.swing import begin_swing, swing_pace, wished_progress
 from polypod.environment.table import surface
 from polypod.gait.needle import swing_progress
 from polypod.math.intervals import wrap_phase
-from polypod.math.vec3 import Vec3, store_vec3
+from polypod.math.quat import load_quat
+from polypod.math.vec3 import Vec3, length, load_vec3, store_vec3
 
 # A leg that pulls at the body by so many leg lengths a frame may step out of turn, if it has stood
 # for so many cycles and the creature hurries so much because its legs hold it back.
@@ -27,6 +29,14 @@ OUT_OF_TURN_PULL = 1e-3
 WAITING_PULL = 1e-9
 OUT_OF_TURN_STOOD = 0.3
 OUT_OF_TURN_HURRY = 0.02
+# So may one that stands for so many cycles longer than in its gait, before it pulls: where its leg
+# would come to its end within this share of a swing's time.
+OVERDUE = 0.05
+SOON = 0.12
+# A foot that leaves before its turn lands in turn if its swing is longer by this share at most, and
+# no longer than so many cycles.
+LONGER = 0.8
+LONGEST = 0.85
 # Standing feet closer than this to their rest place stay, leg lengths.
 IN_PLACE = 0.05
 # Speeds below this, in leg lengths a pendulum time, are standing.
@@ -132,13 +142,43 @@ def note_standing(c: int, dt: float, turn: float, state: Any, tables: Any, setti
 
 
 @kernel
-def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
+def overdue(c: int, k: int, state: Any) -> bool:
+    """Return whether a foot stands for longer than in its gait, and its turn is yet to come.
+
+    So it is with one that swung while the gait changed: it landed by the old one, and its next turn
+    is that of the new one.
+    """
+    due = wrap_phase(state.swing_start[c, k] - state.needle[c])
+    late = state.stood[c, k] > 1.0 - state.swing_extent[c, k] + OVERDUE
+    return bool(late and OVERDUE < due < 1.0 - OVERDUE)
+
+
+@kernel
+def ends_soon(c: int, k: int, dt: float, pose: PlanPose, state: Any, tables: Any) -> bool:
+    """Return whether a leg would soon hold the body back.
+
+    `pose` is where the body will be `dt` seconds from now; two such steps are foreseen at least.
+    """
+    if state.cycle_rate[c] <= 0.0:
+        return False
+    here = load_vec3(state.position[c])
+    steps = max(SOON * state.swing_extent[c, k] / (state.cycle_rate[c] * dt), 2.0)
+    ahead = Vec3(here.x + steps * (pose.x - here.x), here.y, here.z + steps * (pose.z - here.z))
+    foot = load_vec3(state.foot[c, k])
+    shift = shift_as_it_is(c, k, foot, state, tables, ahead, load_quat(state.rotation[c]))
+    return length(shift) > OUT_OF_TURN_PULL * tables.leg_length
+
+
+@kernel
+def foot_out_of_turn(
+    c: int, dt: float, pose: PlanPose, state: Any, tables: Any, scratch: Any
+) -> int:
     """Return the foot that may take a quick step outside of its sector; as many as feet: none.
 
     That is the one that most holds the body back: its leg pulls hardest at a body that its legs
-    have slowed down, because it missed its turn. Or else one that found no place in its turn and
-    still looks for one, or that of a slowed body which missed it for another reason: too few were
-    down then. Where too few feet are down it waits.
+    have slowed down, because it missed its turn. Or one that soon would, for it is overdue. Or else
+    one that found no place in its turn and still looks for one, or that of a slowed body which
+    missed it for another reason: too few were down then. Where too few feet are down it waits.
     """
     # No foot: not a literal, or all that is called with it would be compiled twice.
     count = state.swinging.shape[1]
@@ -153,7 +193,9 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
             continue
         pull = state.pull[c, k]
         hurries = state.hurry[c] >= OUT_OF_TURN_HURRY
-        if pull < OUT_OF_TURN_PULL * tables.leg_length or not hurries:
+        if overdue(c, k, state) and ends_soon(c, k, dt, pose, state, tables):
+            pull = max(pull, OUT_OF_TURN_PULL * tables.leg_length)
+        elif pull < OUT_OF_TURN_PULL * tables.leg_length or not hurries:
             waits = state.waiting[c, k]
             due = wrap_phase(state.swing_start[c, k] - state.needle[c])
             missed = state.stood[c, k] > 1.0 - 0.5 * state.swing_extent[c, k]
@@ -165,6 +207,21 @@ def foot_out_of_turn(c: int, state: Any, tables: Any, scratch: Any) -> int:
             most = pull
             worst = k
     return int(worst if down > feet_needed(c, state) else count)
+
+
+@kernel
+def swings_longer(c: int, k: int, state: Any) -> bool:
+    """Have an overdue foot that leaves now land in turn; return False where that is too far off.
+
+    For this swing its sector begins now. After a quick step it would be early ever after.
+    """
+    due = wrap_phase(state.swing_start[c, k] - state.needle[c])
+    extent = state.swing_extent[c, k]
+    if not overdue(c, k, state) or due > LONGER * extent or due + extent > LONGEST:
+        return False
+    state.swing_start[c, k] = state.needle[c]
+    state.swing_extent[c, k] = due + extent
+    return True
 
 
 @kernel

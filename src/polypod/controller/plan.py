@@ -18,6 +18,7 @@ from polypod.controller.lift import (
     leave_ground,
     note_standing,
     seconds_to_touchdown,
+    swings_longer,
     wait_for_place,
     way_off,
 )
@@ -102,9 +103,10 @@ def plan_feet(
             in_turn = k >= 0
             searching = in_turn
         if k < 0:
-            k = foot_out_of_turn(c, state, tables, scratch)
+            k = foot_out_of_turn(c, dt, pose, state, tables, scratch)
             if k == state.swinging.shape[1]:
                 break
+            in_turn = swings_longer(c, k, state)
         scratch.held[k] = True
         begun = state.needle[c]
         seconds = state.swing_extent[c, k] / (FASTEST_CATCH_UP * state.cycle_rate[c])

@@ -105,7 +105,13 @@ def prepare_feet(
     """Compile most of what `controller.plan` calls besides the planner."""
     from polypod.body.push import NO_DEFLECTION
     from polypod.compute import prepare
-    from polypod.controller.lift import foot_out_of_turn, leave_ground, note_standing, way_off
+    from polypod.controller.lift import (
+        foot_out_of_turn,
+        leave_ground,
+        note_standing,
+        swings_longer,
+        way_off,
+    )
     from polypod.controller.moving import foot_in_the_way, step_out, way_blocked
     from polypod.controller.steering import PlanPose
     from polypod.controller.swing import take_new_way, way_on
@@ -121,7 +127,8 @@ def prepare_feet(
     prepare(note_standing, 0, 0.0, 0.0, state, tables, settings, scratch)
     prepare(foot_in_the_way, 0, 0, state, tables, env)
     prepare(step_out, 0, 0, state, tables, env)
-    prepare(foot_out_of_turn, 0, state, tables, scratch)
+    prepare(foot_out_of_turn, 0, 0.0, pose, state, tables, scratch)
+    prepare(swings_longer, 0, 0, state)
     prepare(way_off, 0, 0, 0.0, pose, state, command, tables, settings)
     prepare(leave_ground, 0, 0, 0.0, state, tables, settings, scratch, env)
 
