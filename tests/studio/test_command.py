@@ -160,9 +160,9 @@ def test_a_tab_is_greeted_drives_and_gets_frames(running: Process) -> None:
 @pytest.mark.parametrize("content", [b"\xff" * 100, "x" * (2 << 20)], ids=["binary", "2 MiB"])
 def test_what_the_page_never_sends(running: Process, content: bytes | str) -> None:
     with running.link() as tab:
-        tab.send(content)
         refused = False
         try:
+            tab.send(content)
             for _ in range(100):
                 message = tab.recv(timeout=30)
                 refused = refused or (isinstance(message, str) and '"refused"' in message)
