@@ -18,6 +18,11 @@ TOLERANCE = 2e-5
 EARLY = 0.35
 EARLY_PULL = 0.06
 LATE_PULL = 0.015
+# It waits by no more than this share of its way in a step for feet that come along on the edge of
+# their legs' reach: to wait as long as it takes was a halt for a frame or two in many strides. It
+# does so for one that would be farther off its path than this, leg lengths.
+LEAST_WAIT = 0.2
+FAR = 0.05
 # A gait with a mean duty factor below this is a run.
 RUNNING_DUTY = 0.5
 
@@ -100,13 +105,14 @@ def may_drag(c: int, state: Any) -> bool:
 
 @kernel
 def body_within_reach(
-    c: int, state: Any, tables: Any, scratch: Any, position: Vec3, turn: Quat
+    c: int, waits: bool, state: Any, tables: Any, scratch: Any, position: Vec3, turn: Quat
 ) -> Vec3:
     """Return the position nearest to `position` at which the feet in the scratch are in reach.
 
     Each pass moves the body against each foot's own shift in turn (projections onto nearly convex
     sets); it ends where no foot asks for more, or with what the passes reached. A swinging foot
-    that is far out of reach does not pull: it can wait. What each foot asked for is noted.
+    that is far out of reach does not pull: it can wait. Nor does any where the body does not wait.
+    What each foot asked for is noted.
     """
     tolerance = TOLERANCE * tables.leg_length
     for attempt in range(PASSES):
@@ -120,7 +126,7 @@ def body_within_reach(
             if attempt == 0:
                 state.pull[c, k] = size
             pull = EARLY_PULL if scratch.progress[k] < EARLY else LATE_PULL
-            if scratch.progress[k] < 1.0 and may_drag(c, state):
+            if not waits or (scratch.progress[k] < 1.0 and may_drag(c, state)):
                 pull = 0.0
             if state.swinging[c, k] and size > pull * tables.leg_length:
                 continue
@@ -130,3 +136,27 @@ def body_within_reach(
         if worst <= tolerance:
             break
     return position
+
+
+@kernel
+def waits_little(
+    c: int, wished: Vec3, waiting: Vec3, before: Vec3, state: Any, tables: Any, scratch: Any,
+    turn: Quat,
+) -> Vec3:  # fmt: skip
+    """Return where a body gets from `before` that waits but little for feet in the air.
+
+    `waiting` is where it gets if it waits for them as long as they need: that it does where one is
+    far off its path.
+    """
+    worst = 0.0
+    for k in range(state.swinging.shape[1]):
+        if state.swinging[c, k]:
+            worst = max(worst, state.pull[c, k] / tables.leg_length)
+    if worst <= TOLERANCE or worst > FAR:
+        return waiting
+    free = body_within_reach(c, False, state, tables, scratch, wished, turn)
+    back = waiting - free
+    most = LEAST_WAIT * length(free - before)
+    if length(back) <= most:
+        return waiting
+    return free + back * (most / length(back))

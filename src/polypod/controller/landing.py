@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from polypod.body.reach import TOLERANCE, may_drag, shift_as_it_is, shift_as_wished
+from polypod.body.reach import TOLERANCE, shift_as_it_is, shift_as_wished
 from polypod.compute import kernel
 from polypod.controller.settle import NEARLY_DOWN, pushed_aside
 from polypod.environment.table import surface
@@ -56,13 +56,12 @@ def advance_swings(
                 store_vec3(state.foot[c, k], here)
             continue
         late = 0.0
-        if may_drag(c, state):
-            near = dragged(c, k, sole, state, tables, scratch)
-            if near != sole and scratch.progress[k] >= 1.0:
-                # Its place is out of reach, and no place to land: another is looked for soon.
-                scratch.progress[k] = NEARLY_DOWN
-                late = state.waiting[c, k] + dt
-            sole = near
+        near = dragged(c, k, sole, state, tables, scratch)
+        if near != sole and scratch.progress[k] >= 1.0:
+            # Its place is out of reach, and no place to land: another is looked for soon.
+            scratch.progress[k] = NEARLY_DOWN
+            late = state.waiting[c, k] + dt
+        sole = near
         state.waiting[c, k] = late
         state.swing_progress[c, k] = scratch.progress[k]
         store_vec3(state.foot[c, k], sole)

@@ -16,6 +16,7 @@ from polypod.body.reach import (
     pitched,
     shift_as_it_is,
     shift_as_wished,
+    waits_little,
 )
 from polypod.compute import kernel
 from polypod.controller.roll import roll_standing, roll_swinging
@@ -164,12 +165,28 @@ def wish_feet(
 
 
 @kernel
-def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratch: Any) -> bool:
+def comes_along(
+    c: int, k: int, shift: Vec3, state: Any, tables: Any, env: Any, scratch: Any
+) -> bool:
+    """Return whether a swinging foot may come along with its body, off its path by `shift`."""
+    unit = tables.legs.length[k]
+    if not state.swinging[c, k] or scratch.progress[k] >= NEARLY_DOWN:
+        return False
+    sole = load_vec3(scratch.sole[k]) + shift
+    return chord_is_free(state.frame[c], CUT * unit, load_vec3(state.foot_shown[c, k]), sole, env)
+
+
+@kernel
+def feet_fit(
+    c: int, goes_on: bool, position: Vec3, turn: Quat, state: Any, tables: Any, env: Any,
+    scratch: Any,
+) -> bool:  # fmt: skip
     """Return whether every foot is within reach of a body pose, swinging ones as far as they may.
 
     A swinging foot goes on along its path if its leg can follow, and a standing one rolls on. Else
     they wait as they are: that is noted in `scratch.held`. The feet themselves are not moved. In
-    runs the body does not wait for swinging feet: see `dragged`.
+    runs the body does not wait for swinging feet, nor where it `goes_on` for those that may come
+    along: see `landing.dragged`.
     """
     tolerance = TOLERANCE * tables.leg_length
     for k in range(state.swinging.shape[1]):
@@ -179,6 +196,8 @@ def feet_fit(c: int, position: Vec3, turn: Quat, state: Any, tables: Any, scratc
         sole = load_vec3(scratch.sole[k])
         shift = shift_as_wished(c, k, sole, state, tables, scratch, position, turn)
         if length(shift) <= 2.0 * tolerance or (state.swinging[c, k] and may_drag(c, state)):
+            continue
+        if goes_on and comes_along(c, k, shift, state, tables, env, scratch):
             continue
         if not state.swinging[c, k] and tables.legs.roll_kind[k] == FLAT:
             return False
@@ -199,7 +218,8 @@ def settle_body(
 
     The body first moves least so that all soles are within reach. Where that is not enough, shares
     of the frame's advance are tried down to none: the pose before was within reach of every foot,
-    so a pose that keeps all soles always exists. `sway` is how far left of that pose it shall be.
+    so a pose that keeps all soles always exists. First of all it is tried to wait but little for
+    feet in the air. `sway` is how far left of that pose it shall be.
     """
     before = load_vec3(state.position[c])
     turn_before = load_quat(state.rotation[c])
@@ -214,14 +234,19 @@ def settle_body(
     wished = sideways(Vec3(pose.x, height, pose.z), pose.heading, sway)
     wish_feet(c, dt, state, command, tables, env, scratch)
     asked_for = wished
-    wished = body_within_reach(c, state, tables, scratch, wished, turn)
+    wished = body_within_reach(c, True, state, tables, scratch, wished, turn)
     if yields(c, wished, turn, state, tables, scratch):
-        wished = body_within_reach(c, state, tables, scratch, asked_for, turn)
+        wished = body_within_reach(c, True, state, tables, scratch, asked_for, turn)
     heading_before = state.heading[c]
     turning = wrapped(pose.heading - heading_before)
     near = list_neighbours(c, tables.leg_length, state, scratch) if state.crowded[c] else 0
-    for share in ADVANCES:
-        position = mix(before, wished, share)
+    going = waits_little(c, asked_for, wished, before, state, tables, scratch, turn)
+    for attempt in range(-1, len(ADVANCES)):
+        goes_on = attempt < 0
+        if goes_on and going == wished:
+            continue
+        share = ADVANCES[max(attempt, 0)]
+        position = going if goes_on else mix(before, wished, share)
         turned = slerp(turn_before, turn, share)
         heading = heading_before + share * turning
         apart = True
@@ -230,12 +255,12 @@ def settle_body(
         if near > 0 and share > 0.0:
             x, z, apart = apart_from(c, near, position.x, position.z, heading, state, scratch)
             position = Vec3(x, position.y, z)
-        fits = apart and feet_fit(c, position, turned, state, tables, scratch)
+        fits = apart and feet_fit(c, goes_on, position, turned, state, tables, env, scratch)
         if share == 0.0 and not fits and env.mover_count > 0:
             # What some feet stand on has carried the body away from the others.
             for _ in range(CARRIED_TRIES):
-                position = body_within_reach(c, state, tables, scratch, position, turned)
-                fits = feet_fit(c, position, turned, state, tables, scratch)
+                position = body_within_reach(c, True, state, tables, scratch, position, turned)
+                fits = feet_fit(c, False, position, turned, state, tables, env, scratch)
                 if fits:
                     break
         if fits or share == 0.0:

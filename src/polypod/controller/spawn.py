@@ -98,9 +98,9 @@ def stand_body(
     )
     wish_feet(c, 0.0, state, command, tables, env, scratch)
     wished = Vec3(pose.x, height, pose.z)
-    position = body_within_reach(c, state, tables, scratch, wished, turn)
+    position = body_within_reach(c, True, state, tables, scratch, wished, turn)
     store_vec3(state.position[c], position)
-    return feet_fit(c, position, turn, state, tables, scratch)
+    return feet_fit(c, False, position, turn, state, tables, env, scratch)
 
 
 def spawn(
