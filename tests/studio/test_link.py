@@ -7,6 +7,7 @@ import json
 import struct
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
@@ -261,7 +262,9 @@ def test_a_server_that_closes_a_connection_itself_is_no_fault(studio: Served, ta
             raise RuntimeError("Unexpected ASGI message, after sending 'websocket.close'.")
         sent.append(message["type"])
 
-    asyncio.run(studio.app(scope, receive, send))
+    # The browser's driver may have a loop of its own in this thread.
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(asyncio.run, studio.app(scope, receive, send)).result(30.0)
     assert sent == ["websocket.accept", *(taken * ["websocket.send"])]
     with studio.tab() as tab:
         assert tab.drives, "who is gone drives no more"
