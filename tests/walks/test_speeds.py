@@ -184,8 +184,8 @@ def test_strides_of_a_walk_vary_at_any_frame_rate_and_threads() -> None:
     assert np.array_equal(varied, touchdowns(5, 0.04, 120.0, threads=3))
     coarse = touchdowns(5, 0.04, 40.0)
     shared = min(len(coarse), len(varied))
-    # The first step begins a frame or two earlier or later, and legs at their ends hurry it in other
-    # frames, but the same strides are long and short.
+    # The first step begins a frame or two earlier or later, and legs at their ends hurry others;
+    # but the same strides are long and short.
     assert np.ptp(coarse[:shared] - varied[:shared]) < 0.12
     assert alike(coarse[:shared], varied[:shared]) > 0.6
     other = touchdowns(6, 0.04, 120.0)
