@@ -54,7 +54,7 @@ export class HeadingPad {
 
   listen() {
     const pad = this.pad;
-    const head = (_, event) => {
+    const head = (event) => {
       const box = pad.getBoundingClientRect();
       const left = box.left + box.width / 2 - event.clientX;
       const ahead = box.top + box.height / 2 - event.clientY;
@@ -62,8 +62,8 @@ export class HeadingPad {
     };
     const take = (event) => {
       this.gesture.begin();
-      head(null, event);
-      return "the arrow";
+      head(event);
+      return true;
     };
     onDrag(pad, { take, follow: head });
     pad.addEventListener("keydown", (event) => this.key(event));

@@ -97,7 +97,7 @@ export class LimitDial {
         this.editor.begin();
         return { last: this.angleAt(event), angle: this.turn[end] };
       },
-      follow: (drag, event) => {
+      follow: (event, drag) => {
         // Turns add up, so that a hand that goes round past the foot of the dial goes on.
         const angle = this.angleAt(event);
         const step = angle - drag.last;

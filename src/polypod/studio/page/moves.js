@@ -4,7 +4,7 @@
 export const MOVE = "onpointerrawupdate" in window ? "pointerrawupdate" : "pointermove";
 
 // Let an element be dragged. `take(event)` returns what is held from now on, or null where nothing
-// is; `follow(held, event)` hears where the pointer goes with it, `release()` that it let go. What
+// is; `follow(event, held)` hears where the pointer goes with it, `release()` that it let go. What
 // is held has the focus: `focused`, where that is another element.
 export function onDrag(element, { take, follow, release = () => {}, focused = element }) {
   let held = null;
@@ -18,7 +18,7 @@ export function onDrag(element, { take, follow, release = () => {}, focused = el
     held = taken;
   });
   element.addEventListener(MOVE, (event) => {
-    if (held !== null) follow(held, event);
+    if (held !== null) follow(event, held);
   });
   for (const kind of ["pointerup", "pointercancel"]) {
     element.addEventListener(kind, () => {

@@ -77,14 +77,14 @@ export class Scrubber {
 
   // `share` of an element's width from `gutter` on, as a drag on it.
   bind(element, gutter, enabled) {
-    const follow = (_, event) => {
+    const follow = (event) => {
       const box = element.getBoundingClientRect();
       this.go(((event.clientX - box.left - gutter) / (box.width - gutter)) * this.last);
     };
     const take = (event) => {
       if (!enabled()) return null;
-      follow(null, event);
-      return "the knob";
+      follow(event);
+      return true;
     };
     onDrag(element, { take, follow, focused: this.element });
   }

@@ -66,7 +66,7 @@ export class SpacingEditor {
   bindPointer(handle, k, place) {
     onDrag(handle, {
       take: (event) => ({ begun: this.begin(), from: place(event) }),
-      follow: ({ begun, from }, event) => {
+      follow: (event, { begun, from }) => {
         const [left, forward] = place(event);
         this.shift(begun, k, [left - from[0], forward - from[1]]);
       },

@@ -107,7 +107,7 @@ function bindPointer(wheel, part, handle, editor) {
       wheel.element.classList.add("held");
       return { grip, last: phaseAt(event), turned: 0 };
     },
-    follow: (drag, event) => {
+    follow: (event, drag) => {
       const phase = phaseAt(event);
       // Turns add up, so that a hand that goes round past the top goes on.
       drag.turned += shortWay(phase - drag.last);
