@@ -21,7 +21,7 @@ LATE_PULL = 0.015
 # It waits by no more than this share of its way in a step for feet that come along on the edge of
 # their legs' reach: to wait as long as it takes was a halt for a frame or two in many strides. It
 # does so for one that would be farther off its path than this, leg lengths.
-LEAST_WAIT = 0.2
+MOST_WAIT = 0.2
 FAR = 0.05
 # A gait with a mean duty factor below this is a run.
 RUNNING_DUTY = 0.5
@@ -156,7 +156,7 @@ def waits_little(
         return waiting
     free = body_within_reach(c, False, state, tables, scratch, wished, turn)
     back = waiting - free
-    most = LEAST_WAIT * length(free - before)
+    most = MOST_WAIT * length(free - before)
     if length(back) <= most:
         return waiting
     return free + back * (most / length(back))
